@@ -40,12 +40,14 @@ void BlockCholesky::analyse(const std::vector<int>& held, const std::vector<int>
         list.erase(std::unique(list.begin(), list.end()), list.end());
     }
     eliminate(near);
-    list_updates();
     values_.assign(values_.size(), 0.0);
     factor_ = values_;
     inverse_.assign(at(start_.back()), 0.0);
     root_.assign(at(n) * most_laws * most_laws, 0.0);
     changed_.assign(at(n), 1);
+    idle_.assign(at(n), 0);
+    for (int i = 0; i < n; i++) idle_[at(i)] = held[at(i)] == 0;
+    listed_ = false;
 }
 
 // Minimum degree with the graph of the factor kept explicitly: `near` holds the neighbours that are not yet eliminated.
@@ -54,6 +56,7 @@ void BlockCholesky::eliminate(std::vector<std::vector<int>>& near) {
     order_.clear();
     place_.assign(at(n), -1);
     diagonal_.assign(at(n), 0);
+    const std::vector<std::vector<int>> coupled = near;
     std::set<std::pair<size_t, int>> queue;
     for (int i = 0; i < n; i++) queue.insert({near[at(i)].size(), i});
     std::vector<std::vector<int>> columns;
@@ -87,7 +90,7 @@ void BlockCholesky::eliminate(std::vector<std::vector<int>>& near) {
         auto& column = columns[at(k)];
         std::sort(column.begin(), column.end(), [&](int a, int b) { return place_[at(a)] < place_[at(b)]; });
         for (const int a : column) {
-            below_.push_back({a, next});
+            below_.push_back({a, next, !std::binary_search(coupled[at(node)].begin(), coupled[at(node)].end(), a)});
             next += at(size_[at(a)] * size_[at(node)]);
         }
         first_.push_back(below_.size());
@@ -95,23 +98,54 @@ void BlockCholesky::eliminate(std::vector<std::vector<int>>& near) {
     values_.resize(next);
 }
 
-// Products of the blocks of every column, by the column to which they contribute.
-void BlockCholesky::list_updates() {
-    const size_t n = order_.size();
-    std::vector<std::vector<Update>> to(n);
-    for (size_t k = 0; k < n; k++) {
-        for (size_t p = first_[k]; p < first_[k + 1]; p++) {
-            for (size_t q = first_[k]; q <= p; q++) {
-                const int a = below_[p].node, b = below_[q].node;
-                to[at(place_[at(b)])].push_back({block(a, b), below_[p].block, below_[q].block, size_[at(a)], size_[at(order_[k])]});
-            }
+// Calls `use` with the products of two used blocks of a column: their indices p >= q in `used_`, and their target's in `below_`.
+template <class Use>
+void BlockCholesky::each_product(size_t k, Use use) const {
+    for (size_t q = first_used_[k]; q < first_used_[k + 1]; q++) {
+        // both columns are in the order of elimination
+        size_t target = first_[at(place_[at(used_[q].node)])];
+        use(q, q, target);
+        for (size_t p = q + 1; p < first_used_[k + 1]; p++, target++) {
+            while (below_[target].node != used_[p].node) target++;
+            use(p, q, target);
         }
     }
-    update_.clear();
-    first_update_.assign(1, 0);
-    for (const std::vector<Update>& list : to) {
-        update_.insert(update_.end(), list.begin(), list.end());
-        first_update_.push_back(update_.size());
+}
+
+// Lists the blocks of nodes that are not idle, without fill that only idle nodes would cause.
+void BlockCholesky::list_used() {
+    const size_t n = order_.size();
+    std::vector<char> filled(below_.size(), 0);
+    used_.clear();
+    first_used_.assign(1, 0);
+    for (size_t k = 0; k < n; k++) {
+        for (size_t p = first_[k]; p < first_[k + 1] && !idle(order_[k]); p++) {
+            if (!idle(below_[p].node) && (filled[p] || !below_[p].filled)) used_.push_back(below_[p]);
+        }
+        first_used_.push_back(used_.size());
+        each_product(k, [&](size_t p, size_t q, size_t target) { if (p != q) filled[target] = 1; });
+    }
+    list_updates();
+    std::fill(changed_.begin(), changed_.end(), 1);
+    listed_ = true;
+}
+
+// Products of the used blocks of every column, by the column to which they contribute.
+void BlockCholesky::list_updates() {
+    const size_t n = order_.size();
+    first_update_.assign(n + 1, 0);
+    for (size_t k = 0; k < n; k++) {
+        for (size_t q = first_used_[k]; q < first_used_[k + 1]; q++) first_update_[at(place_[at(used_[q].node)]) + 1] += first_used_[k + 1] - q;
+    }
+    for (size_t k = 0; k < n; k++) first_update_[k + 1] += first_update_[k];
+    update_.resize(first_update_.back());
+    std::vector<size_t> next(first_update_.begin(), first_update_.end() - 1);
+    for (size_t k = 0; k < n; k++) {
+        each_product(k, [&](size_t p, size_t q, size_t target) {
+            const Entry &a = used_[p], &b = used_[q];
+            update_[next[at(place_[at(b.node)])]++] = {p == q ? diagonal_[at(b.node)] : below_[target].block, a.block, b.block,
+                                                       size_[at(a.node)], size_[at(order_[k])]};
+        });
     }
 }
 
@@ -135,6 +169,9 @@ void BlockCholesky::set_root(int node, const double* root) {
     if (std::equal(root, root + n, own)) return;
     std::copy(root, root + n, own);
     changed_[at(node)] = 1;
+    const bool idle = held_[at(node)] == 0 && std::all_of(root, root + n, [](double r) { return r == 0; });
+    listed_ = listed_ && idle == this->idle(node);
+    idle_[at(node)] = idle;
 }
 
 // Factor of a diagonal block in its lower triangle, with the reciprocals of the pivots, and W in the place of the laws.
@@ -203,11 +240,12 @@ void BlockCholesky::invert_laws(int node) {
 }
 
 void BlockCholesky::factor(const std::vector<char>& redundant) {
+    if (!listed_) list_used();
     for (size_t k = 0; k < order_.size(); k++) {
-        if (!changed_[at(order_[k])]) continue;
+        if (!changed_[at(order_[k])] || idle(order_[k])) continue;
         pause();
         factor_column(k, redundant);
-        for (size_t p = first_[k]; p < first_[k + 1]; p++) changed_[at(below_[p].node)] = 1;
+        for (size_t p = first_used_[k]; p < first_used_[k + 1]; p++) changed_[at(used_[p].node)] = 1;
     }
     std::fill(changed_.begin(), changed_.end(), 0);
 }
@@ -215,8 +253,11 @@ void BlockCholesky::factor(const std::vector<char>& redundant) {
 // Factorises a column from that of A, all columns before it being done.
 void BlockCholesky::factor_column(size_t k, const std::vector<char>& redundant) {
     const int node = order_[k], n = size_[at(node)], held = held_[at(node)];
-    const size_t begin = diagonal_[at(node)], end = k + 1 < order_.size() ? diagonal_[at(order_[k + 1])] : values_.size();
-    std::copy(&values_[begin], values_.data() + end, &factor_[begin]);
+    const size_t begin = diagonal_[at(node)];
+    std::copy_n(&values_[begin], n * n, &factor_[begin]);
+    for (size_t p = first_used_[k]; p < first_used_[k + 1]; p++) {
+        std::copy_n(&values_[used_[p].block], size_[at(used_[p].node)] * n, &factor_[used_[p].block]);
+    }
     for (size_t p = first_update_[k]; p < first_update_[k + 1]; p++) {
         const Update& u = update_[p];
         double *target = &factor_[u.target], *a = &factor_[u.a], *b = &factor_[u.b];
@@ -224,9 +265,9 @@ void BlockCholesky::factor_column(size_t k, const std::vector<char>& redundant) 
     }
     factor_diagonal(node, &redundant[at(start_[at(node)])]);
     const double *lower = &factor_[begin], *reciprocal = &inverse_[at(start_[at(node)])];
-    for (size_t p = first_[k]; p < first_[k + 1]; p++) {
-        double* b = &factor_[below_[p].block];
-        blocks_.solve_rows(b, lower, reciprocal, held, size_[at(below_[p].node)], n);
+    for (size_t p = first_used_[k]; p < first_used_[k + 1]; p++) {
+        double* b = &factor_[used_[p].block];
+        blocks_.solve_rows(b, lower, reciprocal, held, size_[at(used_[p].node)], n);
     }
 }
 
@@ -234,6 +275,10 @@ void BlockCholesky::solve(double* x) const {
     for (size_t k = 0; k < order_.size(); k++) {
         const int node = order_[k], n = size_[at(node)], held = held_[at(node)];
         double* own = x + start_[at(node)];
+        if (idle(node)) {
+            std::fill(own, own + n, 0.0);
+            continue;
+        }
         const double *lower = &factor_[diagonal_[at(node)]], *reciprocal = &inverse_[at(start_[at(node)])];
         double laws[most_laws];
         for (int j = 0; j < n; j++) {
@@ -246,20 +291,21 @@ void BlockCholesky::solve(double* x) const {
             for (int l = held; l < n; l++) laws[j - held] += lower[j * n + l] * own[l];
         }
         std::copy(laws, laws + n - held, own + held);
-        for (size_t p = first_[k]; p < first_[k + 1]; p++) {
-            const int rows = size_[at(below_[p].node)];
-            double* other = x + start_[at(below_[p].node)];
-            const double* b = &factor_[below_[p].block];
+        for (size_t p = first_used_[k]; p < first_used_[k + 1]; p++) {
+            const int rows = size_[at(used_[p].node)];
+            double* other = x + start_[at(used_[p].node)];
+            const double* b = &factor_[used_[p].block];
             blocks_.carry_forward(other, b, own, rows, n);
         }
     }
     for (size_t k = order_.size(); k-- > 0;) {
         const int node = order_[k], n = size_[at(node)], held = held_[at(node)];
+        if (idle(node)) continue;
         double* own = x + start_[at(node)];
         const double *lower = &factor_[diagonal_[at(node)]], *reciprocal = &inverse_[at(start_[at(node)])];
-        for (size_t p = first_[k]; p < first_[k + 1]; p++) {
-            const int rows = size_[at(below_[p].node)];
-            const double *other = x + start_[at(below_[p].node)], *b = &factor_[below_[p].block];
+        for (size_t p = first_used_[k]; p < first_used_[k + 1]; p++) {
+            const int rows = size_[at(used_[p].node)];
+            const double *other = x + start_[at(used_[p].node)], *b = &factor_[used_[p].block];
             blocks_.carry_back(own, b, other, rows, n);
         }
         double laws[most_laws] = {};

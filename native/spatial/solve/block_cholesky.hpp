@@ -4,9 +4,10 @@
 // some directions and be very large along others.  Of the part S of A that is left when the rows before are eliminated, the law part is
 // inverted as (S + D^-1)^-1 = W^T W with W = G^-1 R^T and G G^T = 1 + R^T S R: well conditioned for any D.
 //
-// The pattern is analysed once: nodes are eliminated in minimum degree order, and the target of every product of two blocks
-// is stored, so that factorisation is a pass over flat lists without allocation.  A chain costs O(N).  If only some tangents have changed,
-// only their columns are factorised again and those that depend on them.
+// The pattern is analysed once: nodes are eliminated in minimum degree order.  Nodes without held rows and tangent, as those of contacts
+// that are open, have no impulse and are left out: the blocks that the other nodes need are listed, with the target of every product of two of
+// them, when the set of such nodes changes, so that factorisation is a pass over flat lists without allocation.  A chain costs O(N).  If
+// only some tangents have changed, only their columns are factorised again and those that depend on them.
 #pragma once
 
 #include <cstddef>
@@ -46,22 +47,29 @@ private:
     struct Entry {
         int node;
         size_t block;
+        bool filled;  // zero in A
     };
     struct Update {
         size_t target, a, b;  // target -= b^T a
         int rows_a, inner;
     };
     void eliminate(std::vector<std::vector<int>>& near);
+    bool idle(int node) const { return idle_[static_cast<size_t>(node)] != 0; }
+    void list_used();
     void list_updates();
+    template <class Use>
+    void each_product(size_t k, Use use) const;
     void factor_column(size_t k, const std::vector<char>& redundant);
     void factor_diagonal(int node, const char* redundant);
     void invert_laws(int node);
 
     const BlockKernels& blocks_ = block_kernels();
     std::vector<int> held_, laws_, size_, start_, order_, place_;
-    std::vector<size_t> diagonal_, first_, first_update_;  // per node; per position in the order of elimination
-    std::vector<Entry> below_;
-    std::vector<Update> update_;            // by the column of the target
+    std::vector<size_t> diagonal_, first_, first_used_, first_update_;  // per node; per position in the order of elimination
+    std::vector<Entry> below_, used_;       // all blocks, and those that are not zero for lack of tangents
+    std::vector<Update> update_;            // of used blocks, by the column of the target
+    bool listed_ = false;                   // whether the lists are those of the present idle nodes
+    std::vector<char> idle_;                // per node: neither held rows nor a tangent
     std::vector<double> values_, factor_;   // blocks of A, and of its factor
     std::vector<double> inverse_;           // reciprocals of the pivots of held rows
     std::vector<double> root_;              // per node
