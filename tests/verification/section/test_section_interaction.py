@@ -57,7 +57,7 @@ def test_torque_of_the_box(record_figure):
 
 
 def test_torque_lost_to_shear(record_figure):
-    """Walls that yield in shear on their own: T/T_p = 1 - V/(2 V_p) in a box; 1 - (2/pi) asin(V/V_p) in a ring."""
+    """Walls that yield alone in shear: T/T_p = 1 - V/(2 V_p) in a box, 1 - (2/pi) asin(V/V_p) in a ring."""
     yields = T * 488e6 / math.sqrt(3)
     for axis, side, lost in zip("yz", (A, B), BOX.torque_lost_to_shear, strict=True):
         record_figure(f"box, share per force along {axis}", lost * 2 * side * yields, 0.5, 1e-9)
@@ -78,7 +78,9 @@ def test_walls_without_torque_carry_shear_first(record_figure):
     wall = 39 * MM * 1 * MM * 488e6 / math.sqrt(3)
     # half of three walls' force, of which the middle wall has one share and the outer pair the rest
     share = (1.5 - 1.0) / 2.0 * 0.5 / (1.5 * wall)
-    record_figure("two cells, share per force along z", two.torque_lost_to_shear[1], share, 0.02, "1/N", relative=True)
+    record_figure(
+        "two cells, share per force along z", two.torque_lost_to_shear[1], share, 0.02, "1/N", relative=True
+    )
     assert plain.torque_lost_to_shear[1] > two.torque_lost_to_shear[1]
 
 

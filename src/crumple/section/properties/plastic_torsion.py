@@ -21,7 +21,7 @@ from crumple.numeric.arrays import Floats
 from crumple.section.geometry.skeleton import Skeleton
 
 HALF = 0.5
-"""Share of the largest shear force at which the loss of torque is read: it grows a little faster than the force."""
+"""Share of the largest shear force at which the loss of torque is read; the loss grows a little faster."""
 
 
 def plastic_torsion(skeleton: Skeleton, yields: Floats) -> tuple[float, Floats]:

@@ -6,6 +6,7 @@ from tests.support.structures import STEEL
 
 from crumple.multibody import Run, solve_multibody
 from crumple.multibody.bodies.crossing import segment_distance
+from crumple.multibody.checks.overlap import obstacle_overlap_warnings
 from crumple.structure import Structure
 
 SQUARE = {"type": "square_tube", "side": 0.05, "thickness": 0.003}
@@ -47,6 +48,43 @@ def test_elastic_joints_of_members_count_as_hinges():
     bars["members"]["low"]["hinges"] = [{"name": "h", "at": 0.1, "axis": "y", "law": "plastic"}]
     result = solve_multibody(Structure(**bars), Run(0.001, 0.001))
     assert any("overlap at the start by up to 10 mm" in text for text in result.warnings)
+
+
+@pytest.mark.parametrize(
+    ("obstacle", "depth"),
+    [
+        ({"type": "plane", "point": (0, 0, -0.025), "normal": (0, 0, 1)}, None),
+        ({"type": "plane", "point": (0, 0, -0.021), "normal": (0, 0, 1)}, "4 mm"),
+        # between two of the places that are tried first, and between two corners of the section
+        ({"type": "cylinder", "point": (0.37, 0, -0.072), "axis": (0, 1, 0), "radius": 0.05}, "3 mm"),
+        ({"type": "sphere", "point": (0.613, 0.075, 0.0), "radius": 0.06}, "10 mm"),
+        # the face at the node that a post shares
+        ({"type": "plane", "point": (1.01, 0, 0), "normal": (-1, 0, 0)}, None),
+        ({"type": "plane", "point": (-0.002, 0, 0.5), "normal": (1, 0, 0)}, None),
+    ],
+)
+def test_walls_inside_an_obstacle_are_reported(obstacle, depth):
+    """A bar with its free end at x = 0 and a post on its other end; surfaces 25 mm from their lines."""
+    structure = Structure(
+        materials={"steel": STEEL},
+        sections={"tube": SQUARE},
+        nodes={"a": (0, 0, 0), "b": (1, 0, 0), "c": (1, 0, 0.6)},
+        members={
+            name: {"nodes": nodes, "section": "tube", "material": "steel"}
+            for name, nodes in (("bar", ("a", "b")), ("post", ("b", "c")))
+        },
+        obstacles={"block": {**obstacle, "members": ["bar"]}},
+    )
+    found = obstacle_overlap_warnings(structure)
+    assert len(found) == (depth is not None)
+    assert depth is None or found[0].startswith(f"Member bar starts up to {depth} inside obstacle block: ")
+
+
+def test_a_solution_reports_walls_inside_an_obstacle():
+    bars = two_bars(0.2).model_dump()
+    bars["obstacles"] = {"floor": {"type": "plane", "point": (0, 0, -0.01), "normal": (0, 0, 1)}}
+    result = solve_multibody(Structure(**bars), Run(0.001, 0.001))
+    assert any("starts up to 15 mm inside obstacle floor" in text for text in result.warnings)
 
 
 def test_without_contact_nothing_overlaps():
