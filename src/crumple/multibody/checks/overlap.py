@@ -22,7 +22,7 @@ LEAST = 1e-6
 LEAST_INSIDE = 1e-4
 """Depth [m] of a wall in an obstacle that is rounding of the input."""
 STATIONS, PER_WALL = 33, 8
-"""Places along a member and along each wall at which the gap to an obstacle is taken, then around the closest."""
+"""Places along a member and along each wall at which the gap is taken, then around the closest."""
 
 
 def overlap_warnings(structure: Structure) -> tuple[str, ...]:
