@@ -49,6 +49,10 @@ SOFTENING = {
 
 
 PLANAR = "The motion is planar: hinges turn about parallel axes and carry everything across them rigidly."
+SHEARED = (
+    "Shear forces leave hinges of closed sections less torque, as their walls carry both; "
+    "members do not slip sideways where they yield."
+)
 SPATIAL = "The motion is spatial: hinges carry rigidly what is not about their own axes."
 
 
@@ -85,6 +89,8 @@ def assumptions(structure: Structure, solver: Solver) -> tuple[str, ...]:
         key = (hinge.record.form, math.isfinite(hinge.record.rate_reference), hinge.record.softening_variable)
         alike.setdefault(key, []).append(hinge)
     found += [_carries(structure, hinges) for hinges in alike.values()]
+    if any(hinge.spatial is not None and any(hinge.spatial.shear_loss) for hinge in solver.hinges):
+        found.append(SHEARED)
     if jointed:
         found.append(
             f"{named('Member', list(jointed))} also bend{'s' if len(jointed) == 1 else ''} at "
