@@ -140,6 +140,7 @@ SpatialHinge make_hinge(const nb::dict& d) {
     const auto loss = entry<Doubles>(d, "shear_loss");
     require(loss.size() == 2 && loss[0] >= 0 && loss[1] >= 0, "a shear force along y and one along z take no negative share of the torque");
     std::copy(loss.begin(), loss.end(), h.shear_loss);
+    h.round_shear = entry<bool>(d, "round_shear");
     for (const Component& c : h.components) {
         require(c.like < size(h) && (c.like >= 0 || c.shift.values().empty()), "a component with a shift is like another one of its hinge");
     }

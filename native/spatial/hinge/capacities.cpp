@@ -52,8 +52,7 @@ double capacity_over(const hinge::Curve& curve, double a, double b, bool at_end,
 // The walls of a round tube share every shear force alike; in others each pair of walls loses its own part.
 double left_by_shear(const SpatialHinge& hinge, double along_y, double along_z) {
     const double y = hinge.shear_loss[0] * std::fabs(along_y), z = hinge.shear_loss[1] * std::fabs(along_z);
-    const bool alike = hinge.surface.coupling != Coupling::section;
-    return std::max(least_torque, 1 - (alike ? std::hypot(y, z) : y + z));
+    return std::max(least_torque, 1 - (hinge.round_shear ? std::hypot(y, z) : y + z));
 }
 
 double first_capacity(const SpatialHinge& hinge, int k, int sense) {

@@ -47,6 +47,7 @@ struct SpatialHinge {
     Surface surface;
     double fracture = std::numeric_limits<double>::infinity();  // plastic rotation [rad] at which the hinge fractures
     double shear_loss[2] = {0, 0};  // share of the torque that a shear force along local y, z takes from the walls [1/N]
+    bool round_shear = false;       // whether the walls see the resultant of both forces
 };
 
 // State of one hinge.  Used of each component: plastic rotation, moment (mean over the last step; elastic-plastic: at its end),
@@ -62,7 +63,7 @@ struct SpatialHingeState {
     double fracture_time = -1;  // -1: not fractured
     double fracture_moment = 0;  // resultant moment just before fracture [N m]
     double fracture_energy = 0;  // elastic energy released at fracture [J]; part of the dissipated energy
-    double torque_left = 1;     // share of the torque that shear forces leave
+    double torque_left = 1, torque_aim = 1;  // share of the torque that shear forces leave, followed in time, and of the last step's
     bool sliding = false;
 };
 

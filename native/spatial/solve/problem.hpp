@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "spatial/model/model.hpp"
@@ -51,6 +52,8 @@ struct Problem {
     int start(size_t link) const { return system.start(link); }
     size_t contact_rows() const { return static_cast<size_t>(start(connections.size() - contacts.size())); }
     // share of the true inertia that acts in this step
+    // share of a change of forces that is followed in a time; in quasi-static stages, and where all vibration is resolved, all of it
+    double followed(double time) const { return stage.quasi_static ? 1 : 1 - std::exp(-time * model.resolved_frequency); }
     double inertia_share() const { return stage.quasi_static ? std::max(drag * length / 2, least_inertia) : 1; }
     // mobility: rate along a row for a unit impulse along it, with both bodies free
     double mobility(size_t link, const Row& row) const;

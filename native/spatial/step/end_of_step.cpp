@@ -122,14 +122,14 @@ void EndOfStep::turn_hinges(State& s) {
     }
 }
 
-// What shear forces leave of torques in the next step, without vibration that is not resolved: with the forces of single steps, torques and
-// shear forces would keep each other in vibration.
+// What shear forces leave of torques, followed without vibration that is not resolved: with the forces of single steps, torques and shear
+// forces would keep each other in vibration.
 void EndOfStep::leave_to_torque(State& s, double h) {
-    const double followed = 1 - std::exp(-h * p_.model.resolved_frequency);
     for (size_t j = 0; j < p_.model.hinges.size(); j++) {
         const Vec3 force = s.joint_force[at(p_.model.hinge_joint[j])].v;
-        double& left = s.hinge[j].torque_left;
-        left += followed * (left_by_shear(p_.model.hinges[j], force.y, force.z) - left);
+        SpatialHingeState& hinge = s.hinge[j];
+        hinge.torque_aim = left_by_shear(p_.model.hinges[j], force.y, force.z);
+        hinge.torque_left += p_.followed(h) * (hinge.torque_aim - hinge.torque_left);
     }
 }
 

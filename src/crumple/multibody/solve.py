@@ -27,6 +27,7 @@ from crumple.multibody.answer.shapes import refuse_pictures, states_of
 from crumple.multibody.answer.solved import HingeHistory, Poll, Solved, Solver
 from crumple.multibody.checks import trust
 from crumple.multibody.checks.collapse import changed_capacities, collapse_log, not_unique, scaled_hinge
+from crumple.multibody.checks.overlap import obstacle_overlap_warnings
 from crumple.multibody.checks.physics import physics_cautions
 from crumple.multibody.kernel_choice import why_spatial
 from crumple.multibody.planar.solver import TreeSolver
@@ -255,6 +256,7 @@ def _result(
         warnings=(
             *sentences(caution for caution in cautions if not caution.violation),
             *trust.warnings(structure, hinges, solved, solver.notes),
+            *obstacle_overlap_warnings(structure, run.stages),
             *([doubt] if doubt else []),
             *missing_pictures(run.outputs.pictures, float(solved.time[-1])),
         ),

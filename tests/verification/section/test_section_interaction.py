@@ -21,6 +21,9 @@ from crumple.section import (
     Hat,
     MultiCellTube,
     RectangularTube,
+    Wall,
+    WallSection,
+    Weld,
     fitted_interaction,
     plastic_interaction,
 )
@@ -68,6 +71,34 @@ def test_torque_lost_to_shear(record_figure):
         record_figure(f"ring, share per force along {axis}", lost * 4 * radius * yields, half, 5e-3)
     # no cell: the torque is that of strips, in which shear flows otherwise
     assert HAT.torque_lost_to_shear == (0.0, 0.0)
+
+
+def test_shear_does_not_depend_on_how_a_section_is_drawn():
+    """A triangle upside down or far from the origin; two welded flats carry no force across them."""
+
+    def drawn(sign, shift=0.0):
+        points = [(shift, 0.0), (80 * MM + shift, 0.0), (40 * MM + shift, sign * 60 * MM)]
+        return plastic_interaction(
+            WallSection((Wall(points, 2 * MM, closed=True),)), STEEL
+        ).torque_lost_to_shear
+
+    np.testing.assert_allclose(drawn(-1), drawn(1), rtol=1e-9)
+    np.testing.assert_allclose(drawn(1, 100.0), drawn(1), rtol=1e-6)
+    flats = [Wall([(y, 0.0), (y, 80 * MM)], 2 * MM) for y in (0.0, 2 * MM)]
+    welds = [Weld((0.0, z), (2 * MM, z)) for z in (10 * MM, 70 * MM)]
+    lap = plastic_interaction(WallSection(tuple(flats), welds=tuple(welds)), STEEL)
+    assert lap.torque_lost_to_shear[0] == 0.0 < lap.torque_lost_to_shear[1]
+
+
+def test_cells_far_apart_share_a_force():
+    """Two tubes joined by a plate: less than one tube that carries the force alone, and none below zero."""
+    points = [(0.0, 0.0), (30 * MM, 0.0), (30 * MM, 40 * MM), (0.0, 40 * MM)]
+    cells = [Wall([(y + x, z) for y, z in points], 1.5 * MM, closed=True) for x in (0.0, 110 * MM)]
+    plate = Wall([(30 * MM, 20 * MM), (110 * MM, 20 * MM)], 1.5 * MM)
+    two = plastic_interaction(WallSection((*cells, plate)), STEEL)
+    one = plastic_interaction(WallSection((cells[0],)), STEEL)
+    for both, single in zip(two.torque_lost_to_shear, one.torque_lost_to_shear, strict=True):
+        assert 0.0 < both < single
 
 
 def test_walls_without_torque_carry_shear_first(record_figure):

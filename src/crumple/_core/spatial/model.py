@@ -170,7 +170,8 @@ class SpatialHinge:
     """Plastic hinge in freedoms of a joint that are not held.
 
     Codes of form and softening variable are those of `crumple._core.planar.simulation.TreeHinge`.
-    It opens for good at the plastic rotation `fracture` [rad].  `shear_loss`: see `SpatialHingeRecord`.
+    It opens for good at the plastic rotation `fracture` [rad].  `shear_loss`, `round_shear`: see
+    `SpatialHingeRecord`.
     """
 
     joint: int
@@ -180,6 +181,7 @@ class SpatialHinge:
     softening: int = 0
     fracture: float = math.inf
     shear_loss: tuple[float, float] = (0.0, 0.0)
+    round_shear: bool = False
 
     @cached_property
     def constants(self) -> dict[str, Any]:
@@ -191,6 +193,7 @@ class SpatialHinge:
             "softening": self.softening,
             "fracture": self.fracture,
             "shear_loss": list(self.shear_loss),
+            "round_shear": self.round_shear,
             "components": [component.component() for component in self.components],
             "coupling": int(surface.coupling),
             "rows": as_list(np.asarray(surface.rows, float).reshape(-1)),

@@ -154,12 +154,15 @@ class SpatialHingeRecord:
         Plastic rotation (length of the vector) [rad] at which the hinge breaks; inf: never.
     shear_loss
         Share of the torque that a shear force along local y, and one along z, takes from the walls [1/N].
+    round_shear
+        Whether the walls of a round tube see the resultant of both forces; else their parts add up.
     """
 
     components: tuple[HingeComponent, ...]
     surface: HingeSurface
     fracture: float = math.inf
     shear_loss: tuple[float, float] = (0.0, 0.0)
+    round_shear: bool = False
 
     @property
     def freedoms(self) -> tuple[Freedom, ...]:

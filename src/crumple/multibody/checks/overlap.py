@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from crumple.multibody.bodies.crossing import crossing_members, pair_distances
 from crumple.multibody.bodies.linkage import link
 from crumple.multibody.checks.names import named
 from crumple.numeric.arrays import Floats
-from crumple.structure import Structure
+from crumple.structure import Stage, Structure
 from crumple.structure.keys.obstacles import Obstacle, gap
 from crumple.text.names import listed
 
@@ -21,8 +21,12 @@ LEAST = 1e-6
 """Overlap [m] that is rounding of the input."""
 LEAST_INSIDE = 1e-4
 """Depth [m] of a wall in an obstacle that is rounding of the input."""
-STATIONS, PER_WALL = 33, 8
-"""Places along a member and along each wall at which the gap is taken, then around the closest."""
+STATIONS = 33
+"""Places along a member at which its gap to an obstacle is taken, then around the closest."""
+WALL_STEP, MOST_PARTS = 2e-3, 64
+"""Distance [m] of places along a wall, and the largest number of them."""
+IN_LINE = -0.9
+"""Cosine of the angle between two members away from a node, below which they go on in line."""
 
 
 def overlap_warnings(structure: Structure) -> tuple[str, ...]:
@@ -52,48 +56,82 @@ def overlap_warnings(structure: Structure) -> tuple[str, ...]:
     return tuple(found)
 
 
-def obstacle_overlap_warnings(structure: Structure) -> tuple[str, ...]:
-    """A sentence for each obstacle inside which walls of members start; not where joints cut members back."""
-    meeting = Counter(node for member in structure.members.values() for node in set(member.nodes))
+def obstacle_overlap_warnings(structure: Structure, stages: Sequence[Stage] = ()) -> tuple[str, ...]:
+    """A sentence for each obstacle inside which walls of members start.
+
+    Parameters
+    ----------
+    structure
+        Members and obstacles.
+    stages
+        Of the run; obstacles that are not there in the first one are left out.
+    """
+    there = stages[0].obstacles if stages and stages[0].obstacles is not None else tuple(structure.obstacles)
+    names = list(structure.members)
+    frames = [structure.frame_of(name) for name in names]
+    middles = np.array([frame.position(frame.length / 2.0) for frame in frames]).reshape(-1, 3)
+    reach = np.array([_reach(structure, name) for name in names])
+    longest = np.array([frame.length for frame in frames]) / 2.0 + reach
     found = []
-    for name, obstacle in structure.obstacles.items():
+    for name in there:
+        obstacle = structure.obstacles[name]
+        near = np.flatnonzero(gap(obstacle, middles) < longest).tolist()
         deep = {
-            member: depth
-            for member in obstacle.members or structure.members
-            if (depth := _depth(structure, member, obstacle, meeting)) > LEAST_INSIDE
+            names[k]: depth
+            for k in near
+            if (obstacle.members is None or names[k] in obstacle.members)
+            and (depth := _depth(structure, names[k], obstacle)) > LEAST_INSIDE
         }
         if deep:
             start, most = "starts" if len(deep) == 1 else "start", f"{1e3 * max(deep.values()):.2g} mm"
             found.append(
                 f"{named('Member', list(deep))} {start} up to {most} inside obstacle {name}: contact treats "
-                "this as zero gap; move the obstacle away (shells refuse it)."
+                "this as zero gap, and shells refuse it; move the obstacle away."
             )
     return tuple(found)
 
 
-def _depth(structure: Structure, member: str, obstacle: Obstacle, meeting: Counter[str]) -> float:
+def _reach(structure: Structure, member: str) -> float:
+    """Largest distance of a member's surface from its line [m]."""
+    return float(np.hypot(*structure.section_of(member).outer_outline().T).max())
+
+
+def _depth(structure: Structure, member: str, obstacle: Obstacle) -> float:
     """How deep the surface of a member lies in an obstacle at the start [m]."""
     frame, outline = structure.frame_of(member), structure.section_of(member).outer_outline()
-    reach = float(np.hypot(*outline.T).max())
-    shared = [reach if meeting[node] > 1 else 0.0 for node in structure.members[member].nodes]
-    start, end = shared[0], frame.length - shared[1]
-    between = np.linspace(0.0, 1.0, PER_WALL, endpoint=False)[:, None, None]
-    walls = (outline + between * (np.roll(outline, -1, axis=0) - outline)).reshape(-1, 2)
+    following = np.roll(outline, -1, axis=0)
+    parts = int(np.clip(np.ceil(np.hypot(*(following - outline).T).max() / WALL_STEP), 1, MOST_PARTS))
+    share = np.linspace(0.0, 1.0, parts, endpoint=False)[:, None, None]
+    walls = (outline + share * (following - outline)).reshape(-1, 2)
     across = walls @ np.array([frame.axis("y"), frame.axis("z")])
 
     def gaps(stations: Floats) -> Floats:
         line = np.array([frame.position(station) for station in stations.tolist()])
         return np.asarray(gap(obstacle, line[:, None, :] + across[None, :, :]).min(axis=1))
 
-    if start >= end:
-        return 0.0
-    stations = np.linspace(start, end, STATIONS)
+    start, end = (_cut_back(structure, member, k) for k in (0, 1))
+    if start + end >= frame.length:
+        return -float(gaps(np.array([(frame.length + start - end) / 2.0]))[0])
+    stations = np.linspace(start, frame.length - end, STATIONS)
     nearest = gaps(stations)
     # between two stations the gap changes at most by half their distance
-    if nearest.min() > (end - start) / (2 * (STATIONS - 1)):
+    if nearest.min() > (stations[1] - stations[0]) / 2.0:
         return 0.0
-    k, last = int(nearest.argmin()), STATIONS - 1
-    return -float(gaps(np.linspace(stations[max(k - 1, 0)], stations[min(k + 1, last)], STATIONS)).min())
+    k = int(nearest.argmin())
+    return -float(
+        gaps(np.linspace(stations[max(k - 1, 0)], stations[min(k + 1, STATIONS - 1)], STATIONS)).min()
+    )
+
+
+def _cut_back(structure: Structure, member: str, end: int) -> float:
+    """Length [m] at an end of a member where its surface does not count: others meet it, none in line."""
+    node, out = structure.members[member].nodes[end], structure.frame_of(member).x * (1 - 2 * end)
+    meeting = [name for name, spec in structure.members.items() if name != member and node in spec.nodes]
+    for other in meeting:
+        away = structure.frame_of(other).x * (1 - 2 * structure.members[other].nodes.index(node))
+        if out @ away < IN_LINE:
+            return 0.0
+    return max(_reach(structure, name) for name in (member, *meeting)) if meeting else 0.0
 
 
 def _pairs(names: list[tuple[str, str]]) -> str:

@@ -16,7 +16,7 @@ from crumple.multibody.checks.broken import broken_warnings
 from crumple.multibody.checks.elastic_energy import energy_left_out
 from crumple.multibody.checks.held_parts import held_part_warnings
 from crumple.multibody.checks.names import named
-from crumple.multibody.checks.overlap import obstacle_overlap_warnings, overlap_warnings
+from crumple.multibody.checks.overlap import overlap_warnings
 from crumple.multibody.checks.physics import energy_put_in
 from crumple.result import HingeSummary
 from crumple.structure import PlacedHinge, Structure, dented_tubes
@@ -163,7 +163,6 @@ def warnings(
         found.append(f"{named('Hinge', names)}: {text.format(turned=turned)}")
     found += broken_warnings(solved.hinges)
     found += overlap_warnings(structure)
-    found += obstacle_overlap_warnings(structure)
     found += held_part_warnings(structure, solved)
     found += inaccurate(hinges, largest)
     found += [

@@ -123,6 +123,7 @@ def _hinge(joint: int, connection: Connection) -> SpatialHinge:
         SOFTENING[spatial.softening_variable],
         spatial.fracture,
         spatial.shear_loss,
+        spatial.round_shear,
     )
 
 

@@ -20,6 +20,8 @@ import numpy as np
 from crumple.numeric.arrays import Floats
 from crumple.section.geometry.skeleton import Skeleton
 
+NO_FORCE = 1e-9
+"""Part of all walls' strength below which that of a wall along a force is rounding of its direction."""
 HALF = 0.5
 """Share of the largest shear force at which the loss of torque is read; the loss grows a little faster."""
 
@@ -51,8 +53,8 @@ def plastic_torsion(skeleton: Skeleton, yields: Floats) -> tuple[float, Floats]:
 def torque_lost_to_shear(skeleton: Skeleton, yields: Floats, centre: complex, angle: float) -> float:
     """Share of the plastic torque that a shear force takes, over the force [1/N]; 0 without cells.
 
-    Every wall is taken to yield in shear on its own, which needs corners that carry the differences of flow
-    along the member: docs/theory/interaction.md.
+    Every wall of a cell is taken to yield in shear on its own, which needs corners that carry the differences
+    of flow along the member: docs/theory/interaction.md.  Mean of both senses of the force.
 
     Parameters
     ----------
@@ -63,22 +65,27 @@ def torque_lost_to_shear(skeleton: Skeleton, yields: Floats, centre: complex, an
     angle
         Direction of the force from y towards z [rad].
     """
-    strength = skeleton.thickness * yields / math.sqrt(3.0)
     if not skeleton.cells:
         return 0.0
-    torque, flow = _flow(skeleton, strength)
-    start, end = (skeleton.nodes[skeleton.ends[:, k]] for k in (0, 1))
-    along = ((end - start) * np.exp(-1j * angle)).real
-    arm = (np.conj(start - centre) * (end - start)).imag * np.sign(flow)
-    # walls in which the flow of the torque is against the force: first those that lose least torque for it
-    against = np.flatnonzero((along * flow < 0.0) & (arm > 0.0))
-    against = against[np.argsort(arm[against] / np.abs(along[against]))]
-    spare = float(((strength - np.abs(flow)) * np.abs(along)).sum())
-    largest = float((strength * np.abs(along)).sum())
-    gained = 2.0 * np.cumsum(np.abs(flow * along)[against])
-    lost = 2.0 * np.cumsum((np.abs(flow) * arm)[against])
-    share = np.interp(HALF * largest - spare, np.append(0.0, gained), np.append(0.0, lost)) / torque
-    return float(share) / (HALF * largest)
+    beside = np.array([half >> 1 for _, halves in skeleton.cells for half in halves])
+    walls = np.unique(beside[skeleton.thickness[beside] > 0.0])
+    start, end = (skeleton.nodes[skeleton.ends[walls, k]] for k in (0, 1))
+    strength = (skeleton.thickness * yields)[walls] / math.sqrt(3.0)
+    force = strength * ((end - start) * np.exp(-1j * angle)).real
+    torque = strength * (np.conj(start - centre) * (end - start)).imag
+    largest = float(np.abs(force).sum())
+    across = np.abs(force) <= NO_FORCE * float((strength * np.abs(end - start)).sum())
+    if across.all():
+        return 0.0
+    # T(V) of flows +-strength, from the largest force backwards: walls turn round by their torque over force
+    fixed, along, turned = float(np.abs(torque[across]).sum()), force[~across], torque[~across]
+    order = np.argsort(-turned / along)
+    gained = 2.0 * np.cumsum(np.abs(along)[order])
+    kept = 2.0 * np.cumsum((turned * np.sign(along))[order])
+    forces = np.append(-largest, gained - largest)
+    torques = fixed - float((turned * np.sign(along)).sum()) + np.append(0.0, kept)
+    back, none, ahead = np.interp([-HALF * largest, 0.0, HALF * largest], forces, torques).tolist()
+    return (1.0 - (back + ahead) / (2.0 * none)) / (HALF * largest)
 
 
 def _flow(skeleton: Skeleton, strength: Floats) -> tuple[float, Floats]:

@@ -94,7 +94,8 @@ def spatial_hinge_record(
     )
     if record.surface.coupling is Coupling.NONE or Freedom.X not in record.freedoms:
         return record
-    return replace(record, shear_loss=interaction_of(section, material).torque_lost_to_shear)
+    lost, alike = interaction_of(section, material).torque_lost_to_shear, isinstance(section, CircularTube)
+    return replace(record, shear_loss=lost, round_shear=alike)
 
 
 def _like(

@@ -1,5 +1,7 @@
 """Members that overlap at the start, with contact of members, are reported by name."""
 
+from unittest.mock import patch
+
 import numpy as np
 import pytest
 from tests.support.structures import STEEL
@@ -7,7 +9,7 @@ from tests.support.structures import STEEL
 from crumple.multibody import Run, solve_multibody
 from crumple.multibody.bodies.crossing import segment_distance
 from crumple.multibody.checks.overlap import obstacle_overlap_warnings
-from crumple.structure import Structure
+from crumple.structure import Stage, Structure
 
 SQUARE = {"type": "square_tube", "side": 0.05, "thickness": 0.003}
 
@@ -58,26 +60,63 @@ def test_elastic_joints_of_members_count_as_hinges():
         # between two of the places that are tried first, and between two corners of the section
         ({"type": "cylinder", "point": (0.37, 0, -0.072), "axis": (0, 1, 0), "radius": 0.05}, "3 mm"),
         ({"type": "sphere", "point": (0.613, 0.075, 0.0), "radius": 0.06}, "10 mm"),
+        # narrow: between two corners of the section
+        ({"type": "sphere", "point": (0.4, 0.043, 0.007), "radius": 0.02}, "2 mm"),
+        # at a node that the bar shares with one in line
+        ({"type": "cylinder", "point": (0.0, 0, -0.061), "axis": (0, 1, 0), "radius": 0.05}, "14 mm"),
         # the face at the node that a post shares
         ({"type": "plane", "point": (1.01, 0, 0), "normal": (-1, 0, 0)}, None),
-        ({"type": "plane", "point": (-0.002, 0, 0.5), "normal": (1, 0, 0)}, None),
     ],
 )
 def test_walls_inside_an_obstacle_are_reported(obstacle, depth):
-    """A bar with its free end at x = 0 and a post on its other end; surfaces 25 mm from their lines."""
+    """A bar between one in line and a post; surfaces 25 mm from their lines."""
     structure = Structure(
         materials={"steel": STEEL},
         sections={"tube": SQUARE},
-        nodes={"a": (0, 0, 0), "b": (1, 0, 0), "c": (1, 0, 0.6)},
+        nodes={"a": (0, 0, 0), "b": (1, 0, 0), "c": (1, 0, 0.6), "o": (-0.5, 0, 0)},
         members={
             name: {"nodes": nodes, "section": "tube", "material": "steel"}
-            for name, nodes in (("bar", ("a", "b")), ("post", ("b", "c")))
+            for name, nodes in (("bar", ("a", "b")), ("post", ("b", "c")), ("before", ("o", "a")))
         },
         obstacles={"block": {**obstacle, "members": ["bar"]}},
     )
     found = obstacle_overlap_warnings(structure)
     assert len(found) == (depth is not None)
     assert depth is None or found[0].startswith(f"Member bar starts up to {depth} inside obstacle block: ")
+
+
+def test_obstacles_of_later_stages_are_not_there_at_the_start():
+    structure = Structure(
+        materials={"steel": STEEL},
+        sections={"tube": SQUARE},
+        nodes={"a": (0, 0, 0), "b": (1, 0, 0)},
+        members={"bar": {"nodes": ("a", "b"), "section": "tube", "material": "steel"}},
+        obstacles={"late": {"type": "plane", "point": (0, 0, -0.02), "normal": (0, 0, 1)}},
+    )
+    stages = [Stage(name=name, duration=0.1, obstacles=there) for name, there in (("one", ()), ("two", None))]
+    assert not obstacle_overlap_warnings(structure, stages)
+    assert len(obstacle_overlap_warnings(structure, stages[1:])) == 1
+
+
+def test_many_members_far_from_an_obstacle_take_one_look():
+    """The distance of their middles alone: no member's surface is asked for."""
+    number = 200
+    nodes = {f"n{k}{end}": (0.1 * k, 0.5 * end, 5.0) for k in range(number) for end in (0, 1)}
+    bars = {
+        f"m{k}": {"nodes": (f"n{k}0", f"n{k}1"), "section": "tube", "material": "steel"}
+        for k in range(number)
+    }
+    floor = {"type": "plane", "point": (0, 0, 0), "normal": (0, 0, 1)}
+    structure = Structure(
+        materials={"steel": STEEL},
+        sections={"tube": SQUARE},
+        nodes=nodes,
+        members=bars,
+        obstacles={"floor": floor},
+    )
+    with patch("crumple.multibody.checks.overlap._depth") as depth:
+        assert not obstacle_overlap_warnings(structure)
+    assert not depth.called
 
 
 def test_a_solution_reports_walls_inside_an_obstacle():
