@@ -2,8 +2,8 @@
 
 Everything but energies and forces is read off the stored shapes.  A node's *zone* reaches along each of its
 members by `REACH` of the section's largest side, at most `PART` of the member; what is left of a member is
-its *span*.  A border that would cut through the fold where an obstacle strikes the member between its nodes
-lies half a fold away from it, on the side on which it was.
+its *span*.  Beside the place where an obstacle strikes the member between its nodes a zone takes half the way to
+it at most, unless a fold at the node needs more: a border through its middle is then moved half a fold away.
 
 - Extent: largest change of each requested distance, else largest displacement of each requested node.
 - Rotation of a joint: that of the ring of wall points at the border of its zone in each further member,
@@ -223,16 +223,19 @@ def _borders(structure: Structure, member: str) -> tuple[float, float]:
     reach = min(REACH * side, PART * length)
     places = struck_places(structure, member)
     half = max(half_fold_length(section, axis) for axis in AXES) if places else 0.0
-    low, high = reach, length - reach
+    first = last = reach
     for place in places:
-        low, high = (_beside(border, place.station, half) for border in (low, high))
-    return low, high
+        first = _beside(first, place.station, half)
+        last = _beside(last, length - place.station, half)
+    return first, length - last
 
 
-def _beside(border: float, fold: float, half: float) -> float:
-    """A border at least half a fold away from the middle of a fold, on the side on which it was [m]."""
-    apart = border - fold
-    return border if abs(apart) >= half else fold + float(np.copysign(half, apart))
+def _beside(reach: float, struck: float, half: float) -> float:
+    """Reach of a zone [m] that leaves a fold whole whose middle an obstacle strikes, and the node's own fold."""
+    if struck / 2 >= 2.0 * half:
+        return min(reach, struck / 2)
+    apart = reach - struck
+    return reach if abs(apart) >= half else struck + float(np.copysign(half, apart))
 
 
 def _zone(structure: Structure, member: str, station: float) -> str:
