@@ -2,8 +2,8 @@
 
 Everything but energies and forces is read off the stored shapes.  A node's *zone* reaches along each of its
 members by `REACH` of the section's largest side, at most `PART` of the member; what is left of a member is
-its *span*.  Beside the place where an obstacle strikes the member between its nodes a zone takes half the way to
-it at most, unless a fold at the node needs more: a border through its middle is then moved half a fold away.
+its *span*.  Beside the place where an obstacle strikes the member between its nodes a zone takes half the way
+to it at most, unless a fold at the node needs more: a border in the fold then lies half a fold beside it.
 
 - Extent: largest change of each requested distance, else largest displacement of each requested node.
 - Rotation of a joint: that of the ring of wall points at the border of its zone in each further member,
@@ -231,7 +231,7 @@ def _borders(structure: Structure, member: str) -> tuple[float, float]:
 
 
 def _beside(reach: float, struck: float, half: float) -> float:
-    """Reach of a zone [m] that leaves a fold whole whose middle an obstacle strikes, and the node's own fold."""
+    """Reach of a zone [m] that leaves whole the fold at a struck place, and that at the node."""
     if struck / 2 >= 2.0 * half:
         return min(reach, struck / 2)
     apart = reach - struck
