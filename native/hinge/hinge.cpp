@@ -62,6 +62,9 @@ Real elastic_moment(const Hinge& hinge, const FrozenHinge& f, Real w) {
     return f.m0 + hinge.stiffness * f.h * (f.w0 + w) / 2;
 }
 
+// mean moment of an elastic-plastic hinge that ends a step with m1
+Real mean_moment(const FrozenHinge& f, Real m1) { return (1 - f.late) * f.m0 + f.late * m1; }
+
 Real penetration_at_end(const FrozenHinge& f, int k, Real w) {
     return f.gap[k] + (k == 0 ? 1 : -1) * f.h * (f.w0 + w) / 2;
 }
@@ -177,13 +180,14 @@ void freeze_beside(const Hinge& hinge, Real q0, Real turn, FrozenHinge& f) {
     }
 }
 
-FrozenHinge freeze(const Hinge& hinge, const HingeState& s, double h, Real q0, Real w0, Real w1, int* hint) {
+FrozenHinge freeze(const Hinge& hinge, const HingeState& s, Span step, Real q0, Real w0, Real w1, int* hint) {
     FrozenHinge f;
-    f.h = h;
+    f.h = step.h;
+    f.late = step.late;
     f.w0 = w0;
     f.m0 = s.moment;
     f.width = ramp_width(hinge);
-    const Real mean_rate = (w0 + w1) / 2, turn = h * mean_rate;
+    const Real mean_rate = (w0 + w1) / 2, turn = f.h * mean_rate;
     Real flow = turn;
     if (hinge.form == Form::elastic_plastic) {
         set_capacity(hinge, s, 0, hint, f);
@@ -200,7 +204,7 @@ Response law_response(const Hinge& hinge, const FrozenHinge& f, Real w) {
     const Real c = w >= 0 ? f.capacity[0] : f.capacity[1];
     if (hinge.form == Form::elastic_plastic) {
         const Real trial = elastic_moment(hinge, f, w), m1 = clamped(f, trial);
-        return {f.h * (f.m0 + m1) / 2, m1 == trial ? f.h * f.h * hinge.stiffness / 4 : 0};
+        return {f.h * mean_moment(f, m1), m1 == trial ? f.late * f.h * f.h * hinge.stiffness / 2 : 0};
     }
     if (hinge.form == Form::regularised) {
         const Ramp ramp = ramp_over(ramp_start(f, w), fabs(w) / f.width);
@@ -244,7 +248,7 @@ Real law_potential(const Hinge& hinge, const FrozenHinge& f, Real w) {
     const Real c = w >= 0 ? f.capacity[0] : f.capacity[1], x = fabs(w) / f.width;
     if (hinge.form == Form::elastic_plastic) {
         const Real trial = elastic_moment(hinge, f, w), m1 = clamped(f, trial);
-        return f.h * f.m0 * w / 2 + m1 * (trial - m1 / 2) / hinge.stiffness;
+        return f.h * (1 - f.late) * f.m0 * w + 2 * f.late * m1 * (trial - m1 / 2) / hinge.stiffness;
     }
     if (hinge.form == Form::regularised) return f.h * c * f.width * ramp_over_integral(ramp_start(f, w), x);
     return f.h * c * f.width * (x < 1 ? x * x / 2 : x - 0.5);
@@ -298,7 +302,8 @@ Real commit(const Hinge& hinge, const FrozenHinge& f, HingeState& s, double t0, 
     if (hinge.form == Form::elastic_plastic) {
         const Real m1 = clamped(f, elastic_moment(hinge, f, w1));
         flow = turn - (m1 - f.m0) / hinge.stiffness;
-        s.dissipated += (f.m0 + m1) / 2 * flow;
+        s.dissipated += mean_moment(f, m1) * flow;
+        s.damped += damped_by_weight(hinge, f, m1);
         s.moment = m1;
         flowed = m1 == f.capacity[0] || m1 == -f.capacity[1];
         if ((s.sliding || flowed) && f.w0 * w1 < 0) {

@@ -5,13 +5,14 @@
 // use the mean capacity over the predicted rotation, so that the energy under the curve is exact even across kinks.  The
 // remaining impulse P(w) is non-decreasing, the derivative of a convex potential:
 //   set-valued       P = h C sign(w), any value up to h C at w = 0 (ramp of half-width `stick_rate`)
-//   elastic-plastic  P = h (M0 + M1)/2,  M1 = M0 + k h (w0 + w)/2 clamped to the capacity
+//   elastic-plastic  P = h ((1 - s) M0 + s M1),  M1 = M0 + k h (w0 + w)/2 clamped to the capacity;  s = 1/2 in motion
 //   regularised      P = h C HAVSIN(w, -w_reg, -1, w_reg, 1); while |w| grows, the mean of HAVSIN from w0 to w
 //   damper           P = h c ((1 - s) w0 + s w)
 //   stop             P = h f max(0, k g^e + c w),  g the mean of the start and end penetrations (each at least zero),
 //                    f the share of the step in which the stop is touched, frozen
-// The elastic terms use the mean of start and end and therefore conserve energy; the dampers of the stops use the end rate, so
-// that stiff ones decay.  The weight s of the end rate in the hinge's damper makes the decay of a single body exact: close to
+// In motion the elastic terms use the mean of start and end and therefore conserve energy.  Without inertia this mean passes every error
+// of M0 on to M1 with opposite sign, for ever; with s > 1/2 it decays, and (s - 1/2) (M1 - M0)^2/k is damped.  The dampers of the stops
+// use the end rate, so that stiff ones decay.  The weight s of the end rate in the hinge's damper makes the decay of a single body exact: close to
 // 1/2 for a soft damper (second order), close to 1 for a stiff one.
 #pragma once
 
@@ -69,9 +70,14 @@ struct HingeState {
     int hint[2] = {0, 0};
 };
 
+// Length of a step, and the weight s of the moment at its end in the impulse of an elastic-plastic hinge.
+struct Span {
+    double h = 0, late = 0.5;
+};
+
 // A hinge during one step; all quantities that are not convex are frozen.
 struct FrozenHinge {
-    double h = 0;
+    double h = 0, late = 0.5;     // see `Span`
     Real w0 = 0, m0 = 0;
     Real width = 0;               // half-width of the ramp around zero rate [rad/s]; the solution may widen it temporarily
     Real capacity[2] = {0, 0};
@@ -96,7 +102,7 @@ Real ramp_width(const Hinge& hinge);
 Ramp ramp_over(Real x0, Real x);
 // integral of the ramp's value from 0 to x
 Real ramp_over_integral(Real x0, Real x);
-FrozenHinge freeze(const Hinge& hinge, const HingeState& state, double h, Real q0, Real w0, Real w1, int* hint);
+FrozenHinge freeze(const Hinge& hinge, const HingeState& state, Span step, Real q0, Real w0, Real w1, int* hint);
 // the parts of `freeze`: capacities of both senses over a plastic flow, without the rate factor; that factor; damper and stops
 void set_capacity(const Hinge& hinge, const HingeState& state, Real flow, int* hint, FrozenHinge& f);
 Real rate_factor(const Hinge& hinge, Real rate);
@@ -115,6 +121,10 @@ int kinks(const Hinge& hinge, const FrozenHinge& f, Real* rates);
 // that is at rest at the end of the step, the step length if that time is unknown; null: the hinge's own impulse gives it.
 Real commit(const Hinge& hinge, const FrozenHinge& f, HingeState& state, double t0, Real q0, Real w1, const Real* halt);
 // the part of `commit` for damper and stops, once the moment of the law is known
+// energy that the weight of the end moment takes from a step of an elastic-plastic hinge
+inline Real damped_by_weight(const Hinge& hinge, const FrozenHinge& f, Real m1) {
+    return (f.late - 0.5) * (m1 - f.m0) * (m1 - f.m0) / hinge.stiffness;
+}
 void commit_beside(const Hinge& hinge, const FrozenHinge& f, HingeState& state, Real q0, Real turn, Real w1);
 // elastic energy in the law's spring and in both stops at rotation q
 Real elastic_energy(const Hinge& hinge, const HingeState& state);

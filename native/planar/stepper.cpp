@@ -238,7 +238,7 @@ void Stepper::freeze(const State& s, double h) {
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         const Hinge& hinge = model_.hinges[j];
         const auto dof = static_cast<size_t>(hinge.dof);
-        frozen_[j] = hinge::freeze(hinge, s.hinge[j], h, s.q[dof], s.w[dof], w_[dof], &hint_[2 * j]);
+        frozen_[j] = hinge::freeze(hinge, s.hinge[j], {h}, s.q[dof], s.w[dof], w_[dof], &hint_[2 * j]);
     }
 }
 

@@ -159,10 +159,11 @@ void bind_hinge(nb::module_& m) {
                  self->q.assign(static_cast<size_t>(size(self->hinge)), 0.0);
              })
         .def("freeze",
-             [](Element& e, double h, const Doubles& w0, const Doubles& w1) {
+             [](Element& e, double h, const Doubles& w0, const Doubles& w1, double late) {
                  require_step(h);
-                 e.frozen = freeze(e.hinge, e.state, h, e.q.data(), checked(e, w0), checked(e, w1));
-             })
+                 e.frozen = freeze(e.hinge, e.state, {h, late}, e.q.data(), checked(e, w0), checked(e, w1));
+             },
+             nb::arg("h"), nb::arg("w0"), nb::arg("w1"), nb::arg("late") = 0.5)
         .def("widen", [](Element& e, double width) { widen(e.hinge, e.frozen, width); })
         .def("scale_capacity",
              [](Element& e, int k, double factor) {

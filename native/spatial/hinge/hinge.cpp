@@ -102,7 +102,7 @@ void freeze_coupled(const SpatialHinge& hinge, const SpatialHingeState& s, const
         }
         double impulse[most];
         law(hinge, f, w1, impulse, nullptr, nullptr);
-        for (int k = 0; k < n; k++) flow[k] -= (2 * impulse[k] / f.h - 2 * f.tau0[k]) / law_of(hinge, k).stiffness;
+        for (int k = 0; k < n; k++) flow[k] -= (end_of(f, k, impulse[k]) - f.tau0[k]) / law_of(hinge, k).stiffness;
     }
     // the capacities without flow are those of an elastic hinge that does not yield
     const bool elastic = form_of(hinge) == Form::elastic_plastic && !on_flange(hinge) && !rated(hinge);
@@ -122,11 +122,11 @@ void freeze_separate(const SpatialHinge& hinge, const SpatialHingeState& s, cons
     for (int k = 0; k < n; k++) {
         const hinge::Hinge& one = law_of(hinge, k);
         hinge::FrozenHinge& c = f.component[k];
-        c = hinge::freeze(one, s.component[k], f.h, q0[k], f.w0[k], w1[k], f.hint[k]);
+        c = hinge::freeze(one, s.component[k], {f.h, f.late}, q0[k], f.w0[k], w1[k], f.hint[k]);
         e[k] = s.component[k].plastic;
         flow[k] = f.h * (f.w0[k] + w1[k]) / 2;
         if (form_of(hinge) == Form::elastic_plastic) {
-            flow[k] -= (2 * hinge::law_response(one, c, w1[k]).impulse / f.h - 2 * c.m0) / one.stiffness;
+            flow[k] -= (end_of(f, k, hinge::law_response(one, c, w1[k]).impulse) - c.m0) / one.stiffness;
         }
     }
     f.intact = s.fracture_time >= 0 ? 0 : share_before_fracture(hinge, e, flow);
@@ -193,11 +193,12 @@ bool coupled(const SpatialHinge& hinge) { return hinge.surface.coupling != Coupl
 
 double ramp_width(const SpatialHinge& hinge) { return hinge::ramp_width(law_of(hinge, 0)); }
 
-FrozenSpatialHinge freeze(const SpatialHinge& hinge, const SpatialHingeState& s, double h, const double* q0, const double* w0,
+FrozenSpatialHinge freeze(const SpatialHinge& hinge, const SpatialHingeState& s, hinge::Span step, const double* q0, const double* w0,
                         const double* w1) {
     FrozenSpatialHinge f;
     const int n = size(hinge);
-    f.h = h;
+    f.h = step.h;
+    f.late = step.late;
     f.width = ramp_width(hinge);
     for (int k = 0; k < n; k++) {
         f.w0[k] = w0[k];
@@ -210,8 +211,8 @@ FrozenSpatialHinge freeze(const SpatialHinge& hinge, const SpatialHingeState& s,
     }
     for (int k = 0; k < n; k++) {
         hinge::FrozenHinge& c = f.component[k];
-        c.h = h, c.w0 = w0[k], c.m0 = f.tau0[k], c.width = f.width;
-        hinge::freeze_beside(law_of(hinge, k), q0[k], h * (w0[k] + w1[k]) / 2, c);
+        c.h = f.h, c.late = f.late, c.w0 = w0[k], c.m0 = f.tau0[k], c.width = f.width;
+        hinge::freeze_beside(law_of(hinge, k), q0[k], f.h * (w0[k] + w1[k]) / 2, c);
     }
     for (int k = 0; k < n; k++) {
         const double capacity = s.component[k].capacity;
@@ -250,9 +251,10 @@ void commit(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHinge
             hinge::commit(law_of(hinge, k), f.component[k], c, t0, q0[k], w1[k], &f.component[k].h);
             continue;
         }
-        const double end = elastic ? 2 * impulse[k] / f.h - f.tau0[k] : impulse[k] / f.h;
+        const double end = elastic ? end_of(f, k, impulse[k]) : impulse[k] / f.h;
         flow[k] = elastic ? turn[k] - (end - f.tau0[k]) / law_of(hinge, k).stiffness : turn[k];
         c.dissipated += impulse[k] / f.h * flow[k];
+        if (elastic) c.damped += hinge::damped_by_weight(law_of(hinge, k), f.component[k], end);
         c.moment = end;
         const int sense = f.w0[k] + w1[k] < 0 ? 1 : 0;
         c.capacity = f.component[k].capacity[sense] + (sense == 0 ? f.centre[k] : -f.centre[k]);

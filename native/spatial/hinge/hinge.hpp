@@ -6,7 +6,7 @@
 // planar hinge (hinge/hinge.hpp) all that is not convex is frozen over a step of length h.  What remains, with x = tau/C,
 //   set-valued       P = h tau,  tau = argmax over K of tau.w_e - (width C_ref/2) |x|^2
 //   regularised      P = h Q(D(w_e)/(C_ref w_reg)) tau,  tau = argmax over K of tau.w_e,  D that maximum, Q HAVSIN
-//   elastic-plastic  P = h (tau_0 + tau_1)/2,  tau_1 the point of K nearest in elastic energy to tau_0 + k h (w_0 + w)/2
+//   elastic-plastic  P = h ((1 - s) tau_0 + s tau_1),  tau_1 the point of K nearest in elastic energy to tau_0 + k h (w_0 + w)/2
 // is the gradient of a convex potential, plus each component's damper and stops.  w_e = a w_0 + (1 - a) w is the end rate
 // for a hinge that comes to rest, and the mean rate for one whose axis only rotates, which keeps second order.
 // A single component, and components without coupling, are independent planar hinges.
@@ -69,7 +69,7 @@ struct SpatialHingeState {
 
 // A hinge during one step; all quantities that are not convex are frozen.
 struct FrozenSpatialHinge {
-    double h = 0;
+    double h = 0, late = 0.5;   // see `hinge::Span`
     double width = 0;           // half-width of the ramp [rad/s]; to be changed with `widen`
     double reference = 0;       // C_ref: the largest capacity of a rotation (of the slip if there is no rotation)
     double lead = 0;            // a, weight of the start rate in w_e
@@ -92,8 +92,10 @@ bool coupled(const SpatialHinge& hinge);
 // half-width of the ramp around zero rate of the rigid forms [rad/s]
 double ramp_width(const SpatialHinge& hinge);
 // q0, w0, w1: relative rotation (components of the rotation vector) or slip at the start, rates at start and (predicted) end
-FrozenSpatialHinge freeze(const SpatialHinge& hinge, const SpatialHingeState& state, double h, const double* q0, const double* w0,
+FrozenSpatialHinge freeze(const SpatialHinge& hinge, const SpatialHingeState& state, hinge::Span step, const double* q0, const double* w0,
                         const double* w1);
+// force of an elastic-plastic component at the end of a step from its impulse
+inline double end_of(const FrozenSpatialHinge& f, int k, double impulse) { return (impulse / f.h - (1 - f.late) * f.tau0[k]) / f.late; }
 void widen(const SpatialHinge& hinge, FrozenSpatialHinge& f, double width);
 // Impulse (n), tangent (n x n, symmetric and positive semidefinite) and potential at the end rates w: `respond` for everything, `law`
 // without dampers and stops; any pointer may be null.  The impulse is the gradient of the potential.

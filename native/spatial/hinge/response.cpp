@@ -114,10 +114,10 @@ void coupled_law(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const d
     const Trial t = trial_of(hinge, f, w);
     double block[most * most];
     const SurfacePoint p = point_of(hinge, f, t, tangent != nullptr ? block : nullptr);
-    const double share = elastic ? f.h / 2 : f.h;
-    double sum = elastic ? p.value : f.h * p.value / (1 - f.lead);
+    const double share = elastic ? f.late * f.h : f.h;
+    double sum = elastic ? 2 * f.late * p.value : f.h * p.value / (1 - f.lead);
     for (int k = 0; k < n; k++) {
-        const double start = share * ((elastic ? f.tau0[k] : 0) + f.centre[k]);
+        const double start = share * ((elastic ? (1 - f.late) / f.late * f.tau0[k] : 0) + f.centre[k]);
         sum += start * w[k];
         if (impulse != nullptr) impulse[k] = start + share * t.scale[k] * p.x[k];
     }
@@ -132,7 +132,7 @@ void open_law(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const doub
     const bool elastic = hinge.components[0].law.form == Form::elastic_plastic;
     double sum = 0;
     for (int k = 0; k < n; k++) {
-        const double left = elastic ? f.h * f.tau0[k] / 2 : 0;
+        const double left = elastic ? (1 - f.late) * f.h * f.tau0[k] : 0;
         sum += left * w[k];
         if (impulse != nullptr) impulse[k] = left;
     }
@@ -261,10 +261,10 @@ void capacity_sensitivity(const SpatialHinge& hinge, const FrozenSpatialHinge& f
     law(hinge, f, w, impulse, nullptr, nullptr);
     if (!coupled(hinge)) {
         for (int k = 0; k < n; k++) {
-            const double end = 2 * impulse[k] / f.h - f.component[k].m0;
+            const double end = end_of(f, k, impulse[k]);
             const hinge::Hinge& one = hinge.components[static_cast<size_t>(k)].law;
             const bool bound = hinge::law_response(one, f.component[k], w[k]).slope == 0;
-            derivative[k * n + k] = !elastic ? impulse[k] : bound ? f.h * end / 2 : 0;
+            derivative[k * n + k] = !elastic ? impulse[k] : bound ? f.late * f.h * end : 0;
         }
         return;
     }
@@ -290,7 +290,7 @@ void capacity_sensitivity(const SpatialHinge& hinge, const FrozenSpatialHinge& f
     const double full = f.width * f.reference;
     const bool ramped = hinge.components[0].law.form == Form::regularised;
     const hinge::Ramp ramp = ramped ? hinge::ramp_over(f.power0 / full, p.value / full) : hinge::Ramp{1, 0};
-    const double share = (elastic ? f.h / 2 : f.h) * ramp.value;
+    const double share = (elastic ? f.late * f.h : f.h) * ramp.value;
     for (int i = 0; i < n; i++) {
         for (int j = 0; j < n; j++) {
             const double load = elastic ? t.y[j] - 2 * t.m[j] * p.x[j] : t.y[j];

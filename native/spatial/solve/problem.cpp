@@ -170,6 +170,12 @@ Target Problem::target_of(const Joint& joint, const State& s, double t) const {
     return out;
 }
 
+double Problem::factor_of(const Load& load, const State& s, double h) const {
+    const double since = s.t - s.stage_start;
+    if (!stage.quasi_static || !elastic) return load.value.mean(since, h);
+    return (1 - end_weight()) * load.value.at_time(since) + end_weight() * load.value.at_time(since + h);
+}
+
 void Problem::respond(size_t link, const double* w, double* impulse, double* tangent) const {
     const size_t index = at(connections[link].index);
     if (is_contact(link)) return spatial::respond(contacts.frozen(index), contacts.rows(), w, impulse, tangent, nullptr);

@@ -19,6 +19,8 @@ namespace crumple::spatial {
 // of equilibrium does not depend on the steps.  Smaller values need more steps if loads rotate with the structure; larger ones become
 // noticeable.
 constexpr double drag = 0.1;
+// Weight of the end of a quasi-static step in the moments of elastic hinges: 2/3 of the error of a moment is left after each step.
+constexpr double still_weight = 0.6;
 // Smallest share of the inertia, for very short steps: less would be lost in rounding.
 constexpr double least_inertia = 1e-8;
 
@@ -51,9 +53,13 @@ struct Problem {
     // first row of a link, and of all contacts
     int start(size_t link) const { return system.start(link); }
     size_t contact_rows() const { return static_cast<size_t>(start(connections.size() - contacts.size())); }
-    // share of the true inertia that acts in this step
     // share of a change of forces that is followed in a time; in quasi-static stages, and where all vibration is resolved, all of it
     double followed(double time) const { return stage.quasi_static ? 1 : 1 - std::exp(-time * model.resolved_frequency); }
+    // weight of the end of a step in the moments of elastic hinges, see `hinge::Span`
+    double end_weight() const { return stage.quasi_static ? still_weight : 0.5; }
+    // factor of a load in a step from a state: its mean, in quasi-static stages with the weight of elastic moments
+    double factor_of(const Load& load, const State& s, double h) const;
+    // share of the true inertia that acts in this step
     double inertia_share() const { return stage.quasi_static ? std::max(drag * length / 2, least_inertia) : 1; }
     // mobility: rate along a row for a unit impulse along it, with both bodies free
     double mobility(size_t link, const Row& row) const;

@@ -145,7 +145,7 @@ void EndOfStep::work_of_loads(State& s, double h) {
         const size_t i = at(load.body);
         const Vec3 way = p_.end[i].at(load.arm) - s.pose[i].at(load.arm);
         const Vec3 turn = (h / 2) * (s.velocity[i].w + p_.velocity[i].w);
-        const double work = load.value.mean(s.t - s.stage_start, h) * (dot(load.force, way) + dot(load.moment, turn));
+        const double work = p_.factor_of(load, s, h) * (dot(load.force, way) + dot(load.moment, turn));
         s.work_on(false, work);
         on_structure += work;
     }

@@ -102,7 +102,7 @@ void Stepper::predict(const State& s, double h) {
     }
     for (size_t i = 0; i < p_.model.bodies.size(); i++) momentum_[i] = {{}, h * p_.model.bodies[i].mass * p_.model.gravity};
     for (const Load& load : p_.model.loads) {
-        const double factor = h * load.value.mean(s.t - s.stage_start, h);
+        const double factor = h * p_.factor_of(load, s, h);
         const Vec3 arm = turned(p_.middle[at(load.body)].q, load.arm);
         Twist& m = momentum_[at(load.body)];
         m = m + factor * Twist{load.moment + cross(arm, load.force), load.force};
@@ -168,7 +168,7 @@ void Stepper::freeze(const State& s, double h) {
         // the share of the torque at the middle of the step
         SpatialHingeState state = s.hinge[at(hinge)];
         state.torque_left += p_.followed(h / 2) * (state.torque_aim - state.torque_left);
-        p_.frozen[at(hinge)] = spatial::freeze(p_.model.hinges[at(hinge)], state, h, &s.turned[k], &p_.rate0[first + held], &p_.w[first + held]);
+        p_.frozen[at(hinge)] = spatial::freeze(p_.model.hinges[at(hinge)], state, {h, p_.end_weight()}, &s.turned[k], &p_.rate0[first + held], &p_.w[first + held]);
         spatial::widen(p_.model.hinges[at(hinge)], p_.frozen[at(hinge)], p_.least_width(p_.model.hinges[at(hinge)]));
         // one reversal is enough: a hinge that reverses in one pass and slides on in the next would alternate forever
         if (turned_back_[at(hinge)]) p_.frozen[at(hinge)].lead = 0;

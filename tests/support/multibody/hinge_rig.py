@@ -54,9 +54,10 @@ def hinge(*components, form=SET_VALUED, softening=PEAK, coupling=NONE, **more):
 
 
 class Rig:
-    """A hinge between the ground and a mass that feels nothing else."""
+    """A hinge between the ground and a mass that feels nothing else; `late`: weight of the ends of steps."""
 
-    def __init__(self, constants, inertia=1.0, w=None):
+    def __init__(self, constants, inertia=1.0, w=None, late=0.5):
+        self.late = late
         self.element = _kernels.spatial.HingeElement(constants)
         self.n = len(constants["components"])
         self.inertia = np.diag(np.broadcast_to(np.asarray(inertia, float), self.n))
@@ -84,7 +85,7 @@ class Rig:
         w0, w1 = self.w, self.w.copy()
         push = h * np.broadcast_to(np.asarray(force, float), self.n)
         for _ in range(2):
-            self.element.freeze(h, w0.tolist(), w1.tolist())
+            self.element.freeze(h, w0.tolist(), w1.tolist(), self.late)
             w1 = self._balanced(w0, w1, push)
         turn = np.array(self.element.commit(w1.tolist()))
         self.work += push @ (w0 + w1) / 2
@@ -94,7 +95,7 @@ class Rig:
     def led(self, h, rate):
         """One step at a given constant rate; returns the forces that it takes."""
         rate = np.broadcast_to(np.asarray(rate, float), self.n).tolist()
-        self.element.freeze(h, rate, rate)
+        self.element.freeze(h, rate, rate, self.late)
         impulse = np.array(self.element.respond(rate)[0])
         self.work += impulse @ np.array(rate)
         self.element.commit(rate)
@@ -152,9 +153,9 @@ class Rig:
     set_valued = True
 
 
-def rig(constants, inertia=1.0, w=None):
+def rig(constants, inertia=1.0, w=None, late=0.5):
     """A rig that knows its hinge's form."""
-    made = Rig(constants, inertia, w)
+    made = Rig(constants, inertia, w, late)
     made.set_valued = constants["form"] == SET_VALUED
     if not made.set_valued:
         made.widths = (0.0,)

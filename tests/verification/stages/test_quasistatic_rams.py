@@ -2,6 +2,8 @@
 
 - Sway of a portal by a ram at height z, by virtual work: all four hinges rotate alike, H = 4 M_p/(z - 0.02)
   on the column between its hinges, 4 M_p/0.96 at the level of the beam.
+- Elastic members, before anything yields: stiffness of the portal against sway (Kleinlogel's frame with
+  clamped feet), H/u = 24 E I (1 + 6 k)/((4 + 6 k) h^3) with k = (I/l)/(I/h), columns h, beam l.
 - Rigid-plastic structures absorb what the ram provides, whichever gap closes first.
 
 Kind: closed form; invariant.  Source: derived here; derived here.
@@ -11,6 +13,7 @@ import numpy as np
 import pytest
 from tests.support.structures import STEEL, constant_law
 
+from crumple.analysis import loads, solve
 from crumple.multibody import Run, solve_multibody
 from crumple.structure import Stage, Structure
 
@@ -18,6 +21,7 @@ MOMENT, SPEED, RADIUS, HALF = 1000.0, 0.3, 0.1, 0.025
 SQUARE = {"type": "square_tube", "side": 2 * HALF, "thickness": 0.003}
 UPRIGHT = {"up": (0, 1, 0), "roll": np.pi / 2}
 LIMIT = 4.0 * MOMENT / 0.96
+RIGIDITY = STEEL["youngs_modulus"] * ((2 * HALF) ** 4 - (2 * HALF - 0.006) ** 4) / 12.0
 
 
 def tube(first, second, *places, law=None, **keys):
@@ -41,12 +45,13 @@ def ram(shape, height, gap, **keys):
     return {"type": "cylinder", "point": place, "axis": (0, 1, 0), "radius": RADIUS, **keys}
 
 
-def portal(shape="sphere", *, height=1.0, gap=0.0, beam=(), **keys):
+def portal(shape="sphere", *, height=1.0, gap=0.0, beam=(), elastic=None, **keys):
     nodes = {"a": (0, 0, 0), "b": (0, 0, 1), "c": (1.5, 0, 1), "d": (1.5, 0, 0)}
+    upright = {**UPRIGHT, "elastic": elastic}
     members = {
-        "ab": tube("a", "b", 0.02, 0.98, **UPRIGHT),
-        "bc": tube("b", "c", *beam, law=constant_law(1.5 * MOMENT)),
-        "cd": tube("c", "d", 0.02, 0.98, **UPRIGHT),
+        "ab": tube("a", "b", 0.02, 0.98, **upright),
+        "bc": tube("b", "c", *beam, law=constant_law(1.5 * MOMENT), elastic=elastic),
+        "cd": tube("c", "d", 0.02, 0.98, **upright),
     }
     return Structure(
         materials={"steel": STEEL},
@@ -116,6 +121,63 @@ def test_push_ends_where_it_is_asked_to(quantity, gap, record_figure):
         }[quantity]
         record_figure(f"sway, {name}", sway, wanted, 1e-3, "m", relative=True)
         assert SPEED * end - gap == pytest.approx(sway, rel=2e-3)
+
+
+def test_elastic_members_are_pushed_to_their_limit_load(record_figure):
+    result = pushed(portal(beam=(0.02, 1.48), elastic=6), duration=0.08, every=1e-3)
+    assert result.status.ok, result.reason
+    assert result.provenance.settings["steps"] < 2000
+    assert result.energy_residual < 1e-3
+    sway, pushing = SPEED * result.time, force(result)
+    k = 1.0 / 1.5
+    stiffness = 24.0 * RIGIDITY * (1.0 + 6.0 * k) / (4.0 + 6.0 * k)
+    straight = (pushing > 0.05 * LIMIT) & (pushing < 0.5 * LIMIT)
+    assert straight.sum() >= 3
+    found = float(np.polyfit(sway[straight], pushing[straight], 1)[0])
+    record_figure("stiffness of an elastic portal under a ram", found / stiffness, 1.0, 0.02)
+    assert found == pytest.approx(stiffness, rel=0.02)
+    record_figure("limit load of an elastic portal under a ram", pushing[-1] / LIMIT, 1.0, 0.02)
+    assert pushing[-1] == pytest.approx(LIMIT, rel=0.02)
+
+
+ARM = """
+crumple: 1
+materials:
+  mild: {{youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 320 MPa}}
+  strong: {{youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 3 GPa}}
+sections:
+  tube: {{type: square_tube, side: 50 mm, thickness: 2.5 mm}}
+  arm: {{type: square_tube, side: 20 mm, thickness: 4 mm}}
+nodes:
+  {{a: [0 m, 0 m, 0 m], b: [0.15 m, 0 m, 0 m], c: [0.3 m, 0 m, 0 m], top: [0.15 m, 0 m, 0.21 m]}}
+members:
+  first: {{nodes: [a, b], section: tube, material: mild}}
+  second: {{nodes: [b, c], section: tube, material: mild}}
+  arm: {{nodes: [b, top], section: arm, material: strong}}
+hinges: auto
+supports: {{a: {{node: a, fix: all}}, c: {{node: c, fix: all}}}}
+obstacles:
+  ram: {{type: cylinder, point: [0.15 m, -60.5 mm, 0.15 m], axis: [1, 0, 0], radius: 50 mm,
+    motion: {{y: {{havsin: {{x0: 0 ms, h0: 0 mm, x1: {time} ms, h1: 10 mm}}}}}}}}
+analysis:
+  stages: [{{name: push, kind: quasi-static, duration: {time} ms}}]
+  multibody: {{mechanism_check: off, members: elastic}}
+"""
+
+
+def test_a_push_on_an_arm_of_elastic_members_does_not_depend_on_its_duration(record_figure):
+    """A step that weights both its ends alike hands errors of moments on for ever: the push stood still."""
+    slow, fast = (solve(loads(ARM.format(time=time))) for time in (100, 10))
+    for result in (slow, fast):
+        assert result.status.ok, result.reason
+        assert result.provenance.settings["steps"] < 1000
+        assert result.energy_residual < 1e-4
+        lost = result["energy.damping"][-1] / result["energy.external_work"][-1]
+        assert 0.0 < lost < 0.01
+    one, other = (float(np.abs(result["obstacle.ram.force.y"][-1])) for result in (slow, fast))
+    assert one > 10e3
+    record_figure("force of a push ten times as fast", other / one, 1.0, 2e-3)
+    assert other == pytest.approx(one, rel=2e-3)
 
 
 def test_candidates_at_every_end_find_the_weakest_mechanism(record_figure):
