@@ -102,23 +102,25 @@ bool Simulation::at_output(State& state, double t) {
     return move_within(state, t);
 }
 
-// Stores the rows of the output times that the last step has passed; `fine_` is the state before it.
+// Stores the rows of the output times that the last step has passed; `fine_` is the state before it.  From a time on that cannot be solved
+// again, rows have the state of the end of the step: that of its start could lie before the row above.
 void Simulation::store_passed(Record& record) {
     stepper_.keep(nullptr);
+    bool solvable = true;
     for (; next_output_ < outputs_.size() && outputs_[next_output_] <= state_.t; next_output_++) {
         const double t = outputs_[next_output_];
         const State& before = t <= half_.t ? fine_ : half_;
         State at = before;
-        const bool solved = at_output(at, t);
+        const bool apart = t - before.t > settings_.minimum_step, solved = solvable && at_output(at, t);
+        solvable = solvable && (solved || !apart);
         if (t == state_.t) {
             State end = state_;
             if (solved) end.take_means(at);
             store(record, end);
             continue;
         }
-        // the state before is used where a step is too short or cannot be solved again
         if (!solved) {
-            at = before;
+            at = apart ? state_ : before;
             at.t = t;
         }
         store(record, at);
