@@ -1,4 +1,4 @@
-"""Rows of histories follow each other in time, also where the state at an output time cannot be solved again."""
+"""Rows of histories follow each other in time, also where a state between steps cannot be solved again."""
 
 import numpy as np
 import pytest
