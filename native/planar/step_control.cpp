@@ -87,8 +87,11 @@ bool Simulation::stalled(Record& record) {
 
 // Whether an inaccurate step of the smallest length violates the energy balance, so that no later result would be meaningful.
 bool Simulation::unbalanced(Record& record) const {
-    const double reference = std::max(start_energy_ + work_max_, negligible_energy_);
-    const double missed = std::fabs(value(energies(model_, fine_).balance() - energies(model_, state_).balance()));
+    const Energies after = energies(model_, fine_);
+    // the work of the step itself counts: a drive that starts at speed does all of it in the first, smallest step
+    const double work = std::max(work_max_, std::fabs(value(after.external_work)));
+    const double reference = std::max(start_energy_ + work, negligible_energy_);
+    const double missed = std::fabs(value(after.balance() - energies(model_, state_).balance()));
     if (!(missed > refused_share * reference)) return false;
     record.outcome = Outcome::step_collapsed;
     record.reason = lost_balance;

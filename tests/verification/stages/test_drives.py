@@ -12,10 +12,10 @@ import math
 
 import numpy as np
 import pytest
-from tests.support.structures import cantilever, constant_law
+from tests.support.structures import STEEL, cantilever, constant_law
 
 from crumple.multibody import Run, solve_multibody
-from crumple.structure import MultibodySettings, Outputs
+from crumple.structure import MultibodySettings, Outputs, Structure
 
 MOMENT = 800.0
 OUTPUTS = Outputs(nodes=("tip", "root"))
@@ -94,3 +94,36 @@ def test_kinked_motion(record_figure):
     reported = np.interp(result.time, table["table"]["time"], table["table"]["value"])
     worst = float(np.abs(result["node.tip.displacement.z"] - reported).max())
     record_figure("largest distance from a kinked path", worst, 0.0, 2e-4, "m")
+
+
+def test_a_knee_driven_from_rest_at_speed(record_figure):
+    """All of the kinetic energy comes within the first step, which was judged by what was there before it."""
+    nodes = {"a": (0.0, 0.0, 0.0), "b": (0.0, 0.0, 0.8), "c": (1.0, 0.0, 0.8), "d": (1.0, 0.0, 0.0)}
+    bars = {"ab": ("a", "b", "post"), "bc": ("b", "c", "beam"), "dc": ("d", "c", "post")}
+
+    def work(speed):
+        path = {"x": {"table": {"time": [0.0, 0.3 / speed], "value": [0.0, 0.3]}}}
+        held = {node: {"node": node, "fix": "all"} for node in "ad"}
+        structure = Structure(
+            materials={"steel": {**STEEL, "yield_stress": 350e6}},
+            sections={
+                "post": {"type": "square_tube", "side": 0.05, "thickness": 0.002},
+                "beam": {"type": "rectangular_tube", "width": 0.05, "depth": 0.07, "thickness": 0.002},
+            },
+            nodes=nodes,
+            members={
+                name: {"nodes": (first, second), "section": section, "material": "steel"}
+                for name, (first, second, section) in bars.items()
+            },
+            hinges="auto",
+            supports={**held, "ram": {"node": "b", "motion": path}},
+            masses={"c": {"node": "c", "mass": 10.0}},
+        )
+        result = solve_multibody(structure, Run(0.3 / speed, 3e-3 / speed))
+        assert result.status.ok, result.reason
+        assert result.energy_residual < 1e-3
+        return float(result["energy.dissipated"][-1])
+
+    slow, fast = work(0.5), work(3.0)
+    record_figure("work of a portal led aside six times as fast", fast / slow, 1.0, 0.01)
+    assert fast == pytest.approx(slow, rel=0.01)
