@@ -32,10 +32,17 @@ import pytest
 from scipy.integrate import trapezoid
 from scipy.optimize import brentq
 
-from crumple.analysis import loads
+from crumple.analysis import loads, solve
+from crumple.hinge import Freedom
 from crumple.multibody import Run, solve_multibody
 from crumple.section import bending_moment
-from crumple.structure import MultibodySettings, Outputs, Structure
+from crumple.structure import (
+    MultibodySettings,
+    Outputs,
+    Structure,
+    placed_hinges,
+    with_elastic_members,
+)
 
 LENGTH = 2.0
 STRONG, MILD = 3e9, 300e6
@@ -244,3 +251,58 @@ def test_folds_do_not_depend_on_the_number_of_segments(record_figure):
     rigid = frame("rigid")
     assert results[6].provenance.settings["steps"] <= 3 * rigid.provenance.settings["steps"]
     assert results[6].energy_residual < 1e-3
+
+
+CORNERS = """
+crumple: 1
+materials:
+  steel: {{youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa}}
+sections: {{tube: {{type: rectangular_tube, width: 40 mm, depth: 60 mm, thickness: 2 mm}}}}
+nodes: {{a: [0 m, 0 m, 0 m], b: [0 m, 0 m, 0.6 m], c: [0.5 m, 0 m, 0.6 m]{more}}}
+members: {{{members}}}
+hinges: auto
+supports: {{a: {{node: a, fix: all}}}}
+masses: {{tip: {{node: {tip}, mass: 25 kg}}}}
+initial_velocity: [{{translation: [0 m/s, -3 m/s, 0 m/s], nodes: [{tip}]}}]
+analysis: {{duration: 100 ms, multibody: {{mechanism_check: off}}}}
+"""
+BAR = "{0}{1}: {{nodes: [{0}, {1}], section: tube, material: steel}}"
+
+
+def test_the_order_of_members_at_a_corner_makes_no_difference(record_figure):
+    """An L thrown across its plane twists its post, which belonged to the corner's hinge if it came first."""
+    found = {}
+    for order in (("ab", "bc"), ("bc", "ab")):
+        members = ", ".join(BAR.format(*bar) for bar in order)
+        result = solve(loads(CORNERS.format(members=members, tip="c", more="")))
+        assert result.status.ok, result.reason
+        found[order] = {name: hinge.rotation_max for name, hinge in result.hinges.items()}
+    one, other = found.values()
+    assert one.keys() == other.keys() == {"ab-a", "corner-b"}
+    assert min(one.values()) > 0.03
+    for name, rotation in one.items():
+        record_figure(
+            f"rotation of {name} with the members in the other order",
+            other[name],
+            rotation,
+            2e-3,
+            "rad",
+            relative=True,
+        )
+        assert other[name] == pytest.approx(rotation, rel=2e-3)
+
+
+@pytest.mark.parametrize("order", [("ab", "bc", "cd"), ("cd", "bc", "ab")])
+def test_a_member_between_corners_twists_as_a_whole(order):
+    members = ", ".join(BAR.format(*bar) for bar in order)
+    analysis = loads(CORNERS.format(members=members, tip="d", more=", d: [0.5 m, 0 m, 0 m]"))
+    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    twists = [
+        component.record.elastic_stiffness
+        for joint in placed_hinges(structure)
+        if joint.member == "bc" and not joint.plastic and joint.spatial
+        for component in joint.spatial.components
+        if component.freedom is Freedom.X
+    ]
+    section, steel = structure.section_of("bc"), structure.material_of("bc")
+    assert twists == [pytest.approx(steel.shear_modulus * section.torsion_constant / 0.5)]

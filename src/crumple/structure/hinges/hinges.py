@@ -45,8 +45,9 @@ from crumple.structure.hinges.shares import (
     about_axis,
     member_shares,
     moment_free_ends,
+    untwisted,
 )
-from crumple.structure.hinges.spatial_hinges import BENDING, spatial_hinge_record
+from crumple.structure.hinges.spatial_hinges import BENDING, spatial_hinge_record, twist_component
 from crumple.structure.hinges.stored_loads import laws_of_loads, twist_law
 from crumple.structure.keys.law import LawKeys, Stops
 from crumple.structure.parts import StructureParts
@@ -142,7 +143,8 @@ def _placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
             except InputError as error:
                 problems += [replace(p, where=p.where or f"members.{member}") for p in error.problems]
         placed += own
-        placed += elastic_joints(structure, member, own, about) if own or spec.elastic else []
+        joints = elastic_joints(structure, member, own, about) if own or spec.elastic else []
+        placed += _twisting(structure, member, joints) if spec.elastic else joints
     if problems:
         raise InputError(problems)
     return tuple(placed)
@@ -212,6 +214,21 @@ def elastic_joints(
             )
         )
     return found
+
+
+def _twisting(structure: StructureParts, member: str, joints: list[PlacedHinge]) -> list[PlacedHinge]:
+    """Joints of an elastic member; the one nearest its middle twists if none of its hinges does."""
+    length = untwisted(structure, member) if joints else 0.0
+    if length == 0.0:
+        return joints
+    half = 0.5 * structure.frame_of(member).length
+    middle = min(joints, key=lambda joint: abs(joint.station - half))
+    bending = [HingeComponent(BENDING[middle.axis], middle.record)]
+    metal = structure.section_of(member), structure.material_of(member)
+    twist = twist_component(middle.record, metal, length)
+    components = [*(middle.spatial.components if middle.spatial else bending), twist]
+    spatial = hinge.spatial_record(components, coupling=Coupling.ELLIPSOID)
+    return [replace(joint, spatial=spatial) if joint is middle else joint for joint in joints]
 
 
 def _joint_record(
@@ -290,7 +307,10 @@ def spatial_record_of(
         return record if plain is None else with_corner_slip(record, plain, metal[0])
     # a corner's twist is about another axis, and its law contains what its walls carry besides
     own = replace(record, shear_loss=(0.0, 0.0))
-    sprung = with_corner_springs(own, corner, metal, shares.twist, torsion)
+    elastic = bool(structure.members[place.member].elastic)
+    # elastic members twist between their corners
+    twisted = STIFF * _side(structure, place.member) if elastic else shares.twist
+    sprung = with_corner_springs(own, corner, metal, twisted, torsion)
     shifted = with_corner_shift(sprung, corner, metal[0])
     return with_corner_press(shifted, corner, metal[0], metal[1].yield_stress * metal[0].area)
 

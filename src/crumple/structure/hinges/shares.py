@@ -11,10 +11,11 @@ from crumple.errors import InputError
 from crumple.hinge.measured.library import is_of_joint
 from crumple.section import Axis
 from crumple.structure.hinges.corner.across import ACROSS
-from crumple.structure.hinges.corner_laws import MITRED
+from crumple.structure.hinges.corner_laws import MITRED, turned_corner
+from crumple.structure.hinges.corners import corners
 from crumple.structure.hinges.elastic_members import joint_stations, segments_of, shear_stretch
 from crumple.structure.hinges.flexibility import flexibility, tributary_lengths
-from crumple.structure.hinges.places import HingePlace, law_of, law_spec
+from crumple.structure.hinges.places import HingePlace, law_of, law_spec, member_hinge_places
 from crumple.structure.parts import StructureParts
 
 Spring = Literal["none", "given", "auto"]
@@ -95,7 +96,11 @@ def member_shares(
         return {place.name: share for place, share in zip(own, lengths, strict=True)}
 
     axial = along(lambda place: place.keys.axial is not None)
-    twist = along(lambda place: "x" in (place.keys.axes or ()))
+    # the hinge of a corner has part of the twist of a rigid member; elastic ones twist on their own
+    rigid_member = not segments_of(structure, name)
+    twist = along(
+        lambda place: _twists(structure, place) or (rigid_member and "x" in (place.keys.axes or ()))
+    )
     nearest = along(lambda place: True) if len(places) != 1 else {places[0].name: length}
     # folds along the axis begin at the weakest hinge and go on next to each other through the whole member
     nearest |= dict.fromkeys(axial, sum(axial.values()))
@@ -112,6 +117,25 @@ def member_shares(
         )
         for place in places
     ], found
+
+
+def _twists(structure: StructureParts, place: HingePlace) -> bool:
+    """Whether a hinge turns about the axis of its member; that of a corner turns about its tangent."""
+    axes = place.keys.axes or ()
+    return "x" in axes and turned_corner(structure, place.name, axes) is None
+
+
+def untwisted(structure: StructureParts, member: str) -> float:
+    """Length of a member that twists in no hinge [m], because its ends are corners; 0 of all others."""
+    spec, known = structure.members[member], corners(structure)
+    ends = [known[node] for node in spec.nodes if node in known]
+    hosts = [place for end in ends for place in member_hinge_places(structure, end.first)]
+    if not any("x" in (place.keys.axes or ()) and not _twists(structure, place) for place in hosts):
+        return 0.0
+    if any(_twists(structure, place) for place in member_hinge_places(structure, member)):
+        return 0.0
+    length = structure.frame_of(member).length
+    return length - sum(b - a for a, b in spec.rigid_parts(length))
 
 
 def axes_of(place: HingePlace) -> tuple[Axis, ...]:

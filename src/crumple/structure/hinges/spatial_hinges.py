@@ -76,7 +76,7 @@ def spatial_hinge_record(
     if "x" in (keys.axes or ()):
         law = torsion if keys.twist is None else None
         law = law or _torsion_law(keys.twist or Twist(), section, material, shares.stretch)
-        twist = _twist(law, first, metal, shares)
+        twist = _twist(law, first, metal, shares.twist)
         components.append(HingeComponent(Freedom.X, twist))
     if keys.axial is not None:
         components.append(HingeComponent(Freedom.AXIAL, _axial(keys.axial, crush, first, metal, shares)))
@@ -120,12 +120,15 @@ def _torsion_law(keys: Twist, section: Section, material: Material, length: floa
     return build_torsion_law(keys.law, section, material, length, **keys.own)
 
 
-def _twist(
-    law: HingeLaw, first: HingeRecord, metal: tuple[Section, Material], shares: HingeShares
-) -> HingeRecord:
+def _twist(law: HingeLaw, first: HingeRecord, metal: tuple[Section, Material], length: float) -> HingeRecord:
     section, material = metal
-    elastic = material.shear_modulus * section.torsion_constant / shares.twist
+    elastic = material.shear_modulus * section.torsion_constant / length
     return _like(first, law, elastic)
+
+
+def twist_component(first: HingeRecord, metal: tuple[Section, Material], length: float) -> HingeComponent:
+    """Twist of a length of member [m] beside a component of its bending, with its plastic torque."""
+    return HingeComponent(Freedom.X, _twist(_torsion_law(Twist(), *metal, length), first, metal, length))
 
 
 def _axial(

@@ -1,8 +1,9 @@
 """Elastic stiffness of a corner's hinge about the corner's own axes.
 
-A length l of the first member twists by l/(G J) times the torque about its own axis, which is at half the
-corner's angle a to the tangent. So it adds cos^2(a/2) l/(G J) to the flexibility about the tangent and
-sin^2(a/2) l/(G J) to that about the bisector. The product of both, which couples them, is left out.
+A length l of a member twists by l/(G J) times the torque about its own axis, which is at half the corner's
+angle a to the tangent. So it adds cos^2(a/2) l/(G J) to the flexibility about the tangent and sin^2(a/2)
+l/(G J) to that about the bisector. The product of both, which couples them, is left out: elastic members
+twist in hinges and joints of their own, and these springs are for hinges of rigid ones.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ def with_corner_springs(
     corner, metal
         Where, and its section and material.
     length
-        Of the first member that twists elastically in this hinge [m].
+        Of member that twists elastically in this hinge [m].
     tangent
         Law about the tangent, with the stiffness of the corner's own; None: it has none.
     """
