@@ -7,7 +7,7 @@ load about its axis alone reaches exactly that axis' capacity.
 A component whose two senses differ (shortening folds, lengthening yields) has its force divided by the
 capacity of the sense in which it acts.  That keeps the set convex only if the surface is mirror-symmetric in
 that component, so its rows are doubled with that column's sign turned, each times 2^(-1/p): the mean of a
-surface and its image.
+surface and its image.  The fit of a section with that symmetry has the images among its rows, which stay.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.record.record import Form, HingeRecord
@@ -101,7 +102,8 @@ def section_surface(components: Sequence[HingeComponent], interaction: Interacti
     for k, component in enumerate(components):
         if component.freedom in COLUMN and not senses_agree(component.record):
             rows = _mirrored(rows, k, interaction.power)
-    rows = rows[np.abs(rows).max(axis=1) > 0.0]
+    # without the columns of rigid freedoms some rows are equal
+    rows = _merged(rows[np.abs(rows).max(axis=1) > 0.0], interaction.power)
     # a load about one axis alone reaches its capacity
     pure = (np.abs(rows) ** interaction.power).sum(axis=0) ** (1.0 / interaction.power)
     rows = rows / np.where(pure > 0.0, pure, 1.0)
@@ -131,13 +133,25 @@ def scaled(record: HingeRecord, factor: float) -> HingeRecord:
 
 
 def _mirrored(rows: Floats, column: int, power: float) -> Floats:
-    """Rows of the mean of a surface and its image; a row that is its own image, or minus it, stays."""
+    """Rows of the mean of a surface and its image; a row whose image is among them, up to its sign, stays."""
     image = rows.copy()
     image[:, column] *= -1.0
-    others = np.delete(rows, column, axis=1)
-    alone = (rows[:, column] == 0.0) | (others == 0.0).all(axis=1)
+    alone = _alike(image, rows).any(axis=1)
     pairs = np.vstack([rows[~alone], image[~alone]]) * 2.0 ** (-1.0 / power)
     return np.asarray(np.vstack([rows[alone], pairs]))
+
+
+def _merged(rows: Floats, power: float) -> Floats:
+    """Rows without repetitions: one in place of k equal ones, times k^(1/p)."""
+    alike = _alike(rows, rows)
+    first = alike.argmax(axis=1) == np.arange(len(rows))
+    return np.asarray(rows[first] * alike.sum(axis=1)[first, None] ** (1.0 / power))
+
+
+def _alike(one: Floats, other: Floats) -> NDArray[np.bool_]:
+    """Whether rows are equal but for their sign and rounding, shapes (n, k) and (m, k) to (n, m)."""
+    apart = [np.abs(one[:, None] + sign * other).max(axis=2) for sign in (1.0, -1.0)]
+    return np.asarray(np.minimum(*apart) <= 1e-12 * np.abs(other).max(initial=0.0))
 
 
 def _component_problems(components: tuple[HingeComponent, ...]) -> list[Problem]:

@@ -178,7 +178,8 @@ class PlasticInteraction:
         """
         turn = 2.0 * np.pi * np.arange(around) / around
         twist = np.linspace(0.0, np.pi / 2.0, torques + 1)[:-1]
-        top, bottom = np.array([self.section.extent(angle) for angle in turn.tolist()]).T
+        heights = (self.section.centred_polygons.ravel() * np.exp(-1j * turn)[:, None]).imag
+        top, bottom = heights.max(axis=1), -heights.min(axis=1)
         share = (1.0 - np.cos(np.pi * (np.arange(levels) + 0.5) / levels)) / 2.0
         level = share[None, :] * (top + bottom)[:, None] - bottom[:, None]
         bend = np.broadcast_to(turn[:, None], level.shape)

@@ -3,9 +3,10 @@
     g(x)^r = [sum_k |a_k . (n, m_y, m_z)|^p]^(r/p) + |t|^r,        x on the surface: g = 1
 
 with the resultants over their largest values.  Powers of linear forms are convex and even, so g is a norm,
-whatever the rows a_k.  They are picked from the normals of the exact surface: least squares for sum_k w_k
-|d_k . x|^p = 1 with w_k >= 0 (Lawson and Hanson's active set), rows a_k = w_k^(1/p) d_k; few w_k are not
-zero.
+whatever the rows a_k.  They are picked from the normals d_k of the exact surface, least squares for sum_k w_k
+|d_k . x|^p = 1 with few w_k > 0, and then moved.  Every row comes with its images under the symmetry of the
+section, so a mirror image of the forces has the same g and the mirror image of its gradient, to rounding:
+pure M_y of a tube turns it about y alone and does not shorten it.
 
 r = 2 is von Mises where all walls share the torque; sections whose inner walls carry none of it want a
 larger r.
@@ -16,6 +17,7 @@ rounded, and there the error is largest.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,9 +25,13 @@ from numpy.typing import ArrayLike
 
 from crumple.numeric.arrays import Floats
 from crumple.section.capacity.interaction import PlasticInteraction
+from crumple.section.capacity.interaction_rows import moved, picked
+from crumple.section.capacity.interaction_symmetry import one_of_each, symmetry
 
-POWERS = (6.0, 10.0, 16.0)
-"""Exponents p that are tried; higher ones follow edges better and curve more."""
+POWERS = (16, 10)
+"""Exponents p that are tried, the next if the error is not `GOOD`."""
+GOOD = 0.05
+"""Error of a fit beside which no other exponent is tried."""
 TORQUE_POWERS = (2.0, 2.5, 3.0, 4.0)
 """Exponents r that are tried."""
 
@@ -84,28 +90,36 @@ def fitted_interaction(interaction: PlasticInteraction, *, rows: int = 24) -> In
     interaction
         Exact surface.
     rows
-        Most linear forms to use.
+        Most linear forms to use, at least 8; those of a square section come in sets of up to eight images.
 
     Returns
     -------
     InteractionFit
         With its error.
     """
-    scales = interaction.scales
-    points, normals = _surface(interaction, 24, 13, 1)
+    scales, images = interaction.scales, symmetry(interaction)
+    around, levels = (24, 13) if len(images) < 4 else (32, 17)
+    points, normals = _surface(interaction, images, around, levels, 1)
+    # of a section with images fewer places are needed: as many, but closer together
+    finer = math.sqrt(len(images))
+    seen = _surface(interaction, images, round(23 * finer), round(14 * finer), 3)[0]
     # to resultants and back, as a solver asks
-    seen = _surface(interaction, 23, 14, 3)[0] * scales / scales
+    seen = seen * scales / scales
     twist = np.abs(seen[:, 3])
-    fits = []
+    fits: list[InteractionFit] = []
     for power in POWERS:
-        chosen = _rows(points[:, :3], normals[:, :3], power, rows)
+        orbits = moved(picked(points[:, :3], normals[:, :3], images, power, rows), points[:, :3], power)
+        chosen = orbits.all_rows()
         # the exponents of the torque share it
         direct = _direct(seen, chosen, power)[0]
         for torque_power in TORQUE_POWERS:
             off = np.abs(1.0 / _with_twist(direct, twist, torque_power) - 1.0)
             error, mean = float(off.max()), float(off.mean())
-            fits.append(InteractionFit(scales, chosen, power, torque_power, error, mean))
-    return min(fits, key=lambda fit: fit.error)
+            fits.append(InteractionFit(scales, chosen, float(power), torque_power, error, mean))
+        best = min(fits, key=lambda fit: fit.error)
+        if best.error <= GOOD:
+            break
+    return best
 
 
 def _direct(x: Floats, rows: Floats, power: float) -> tuple[Floats, Floats, Floats]:
@@ -127,63 +141,13 @@ def _with_twist(direct: Floats, twist: Floats, r: float) -> Floats:
 
 
 def _surface(
-    interaction: PlasticInteraction, around: int, levels: int, torques: int
+    interaction: PlasticInteraction, images: Floats, around: int, levels: int, torques: int
 ) -> tuple[Floats, Floats]:
-    """Points over their scales and normals d with d . x = 1, both of shape (n, 4)."""
+    """Points over their scales and normals d with d . x = 1, none an image of another, of shape (n, 4)."""
     rates = interaction.spread_rates(around, levels, torques)[: -1 if torques == 1 else None]
+    # zero but for rounding: a normal of an axis of symmetry is its own image
+    rates[np.abs(rates) < 1e-12] = 0.0
+    rates = rates[one_of_each(rates[:, :3], images)]
     points = interaction.point(rates / interaction.scales) / interaction.scales
     power = (rates * points).sum(axis=1)
     return points, rates / power[:, None]
-
-
-def _rows(points: Floats, normals: Floats, power: float, most: int) -> Floats:
-    # the body is even: one of each pair of normals
-    half = normals[(normals @ [1.0, 1e-3, 1e-6]) >= 0.0]
-    columns = np.abs(points @ half.T) ** power
-    weights = nonnegative_least_squares(columns, np.ones(len(points)), most)
-    used = weights > 0.0
-    return np.asarray(half[used] * weights[used, None] ** (1.0 / power))
-
-
-def nonnegative_least_squares(matrix: Floats, right: Floats, most: int) -> Floats:
-    """Find x >= 0 with the smallest |matrix x - right| and at most ``most`` entries that are not zero.
-
-    Active set of Lawson and Hanson (Solving Least Squares Problems, 1974), stopped early by ``most``.
-
-    Parameters
-    ----------
-    matrix, right
-        Shapes (n, k) and (n,).
-    most
-        Entries of the solution that may differ from zero.
-    """
-    product, goal = matrix.T @ matrix, matrix.T @ right
-    x = np.zeros(matrix.shape[1])
-    free = np.zeros(len(x), bool)
-    small = 1e-10 * float(np.abs(goal).max())
-    for _ in range(3 * most):
-        gain = goal - product @ x
-        gain[free] = -np.inf
-        # the first of those that are alike but for rounding, as mirrored columns are: the choice must not
-        # jump with the last digit of the matrix
-        enter = int((gain >= gain.max() - small).argmax())
-        if gain[enter] <= small or free.sum() >= most:
-            break
-        free[enter] = True
-        while True:
-            at, trial = np.flatnonzero(free), np.zeros_like(x)
-            block = product[at[:, None], at]
-            block.flat[:: len(at) + 1] += 1e-12 * block.trace()
-            trial[at] = np.linalg.solve(block, goal[at])
-            if (trial[at] > 0.0).all():
-                break
-            # as far towards the trial as all stay positive; entries that reach zero leave the active set
-            falling = free & (trial <= 0.0)
-            step = float((x[falling] / np.maximum(x[falling] - trial[falling], 1e-300)).min())
-            x = x + step * (trial - x)
-            free &= x > 1e-14
-            x[~free] = 0.0
-            if not free.any():
-                return x
-        x = trial
-    return x

@@ -110,6 +110,29 @@ def test_mirrored_rows_are_the_mean_of_the_surface_and_its_image():
     np.testing.assert_allclose(surface.gauge(x), (np.mean(powers, axis=0)) ** (1.0 / 6.0), rtol=1e-12)
 
 
+@pytest.mark.parametrize("rows", [16, 24])
+def test_rows_of_a_symmetric_section_are_not_doubled(rows):
+    """Shortening and lengthening differ, but the image of each row is among them."""
+    fit = fitted_interaction(plastic_interaction(TUBE, STEEL), rows=rows)
+    record = spatial_record(all_four(), interaction=fit)
+    assert len(record.surface.rows) == len(fit.rows)
+    x = np.random.default_rng(5).normal(size=(50, 4))
+    pure = (np.abs(fit.rows) ** fit.power).sum(axis=0) ** (1.0 / fit.power)
+    own = x[:, [0, 2, 3, 1]] / [*pure, 1.0] * fit.scales
+    np.testing.assert_allclose(record.surface.gauge(x), fit.gauge(own), rtol=1e-12)
+
+
+def test_equal_rows_are_merged():
+    rows = np.array([[0.5, 0.8, 0.1], [-0.5, 0.8, 0.1], [0.5, -0.8, -0.1], [0.2, 0.0, 0.9], [1.0, 0.0, 0.0]])
+    fit = InteractionFit(np.ones(4), rows, 6.0)
+    surface = spatial_record([bending(Freedom.Y), bending(Freedom.Z)], interaction=fit).surface
+    assert len(surface.rows) == 2
+    pure = (rows[:, 1:] ** 6).sum(axis=0) ** (1.0 / 6.0)
+    x = np.random.default_rng(6).normal(size=(50, 2))
+    wanted = (((x / pure) @ rows[:, 1:].T) ** 6).sum(axis=1) ** (1.0 / 6.0)
+    np.testing.assert_allclose(surface.gauge(x), wanted, rtol=1e-12)
+
+
 def test_only_the_columns_of_the_components_count():
     record = spatial_record([bending(Freedom.Y), bending(Freedom.Z)], interaction=INTERACTION)
     assert record.surface.rows.shape[1] == 2

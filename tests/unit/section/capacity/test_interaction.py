@@ -17,7 +17,7 @@ from crumple.section import (
     moment_capacity,
     plastic_interaction,
 )
-from crumple.section.capacity.interaction_fit import nonnegative_least_squares
+from crumple.section.capacity.interaction_rows import nonnegative_least_squares
 
 MM = 1e-3
 STEEL = Material("steel", 210e9, 0.3, 7850.0, 488e6)
