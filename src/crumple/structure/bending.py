@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 
 from crumple.numeric.arrays import Floats
-from crumple.structure.geometry import FLAT
+from crumple.structure.geometry import FLAT, LEVEL
 from crumple.structure.keys.obstacles import CylinderObstacle, Obstacle, PlaneObstacle
 from crumple.structure.parts import StructureParts
 
@@ -56,7 +56,7 @@ def across_plane(structure: StructureParts, normal: Floats) -> str | None:
     normal
         Unit vector across the plane, (3,).
     """
-    return next((where for where, part in _parts_across(structure, normal) if part > FLAT), None)
+    return next((where for where, part in _parts_across(structure, normal) if part > LEVEL), None)
 
 
 def _parts_across(structure: StructureParts, normal: Floats) -> Iterator[tuple[str, float]]:

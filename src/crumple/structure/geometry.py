@@ -15,10 +15,21 @@ Triple = tuple[float, float, float]
 
 NEARLY_PARALLEL = 1e-6
 """Sine of the angle between member and `up` below which the direction across the member is noise."""
+UPRIGHT = 1e-3
+"""Sine of the angle to global z below which a member stands along it: 0.01 mm in 10 mm."""
 NARROWEST = math.radians(10.0)
 """Angle between two members, or to a line, below which they lie along each other."""
 FLAT = 1e-6
-"""Ratio of singular values of the node positions below which they count as in line or in a plane."""
+"""Share of a direction below which it is none."""
+LEVEL = 1e-4
+"""Ratio of singular values of the node positions below which they count as in line or in a plane, and angle
+to a plane that is none: above that of coordinates which are rounded to 0.01 mm, and a tenth of the
+straightness of tubes."""
+SQUARE = 1e-3
+"""Angle of a member to the plane, and of its section to the normal, that is one of rounded coordinates: those
+of the shortest members."""
+EXACT = 1e-11
+"""Angle that is rounding of the calculation."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +116,7 @@ def _frame(first: Triple, second: Triple, up: Triple | None, roll: float) -> Fra
         raise ValueError("the nodes of the member coincide")
     x = (span[0] / length, span[1] / length, span[2] / length)
     if up is None:
-        up = (0.0, 0.0, 1.0) if math.hypot(x[0], x[1]) > NEARLY_PARALLEL else (1.0, 0.0, 0.0)
+        up = (0.0, 0.0, 1.0) if math.hypot(x[0], x[1]) > UPRIGHT else (1.0, 0.0, 0.0)
     size = _size(up)
     direction = (up[0] / size, up[1] / size, up[2] / size)
     across = _along(direction, -(direction[0] * x[0] + direction[1] * x[1] + direction[2] * x[2]), x)
@@ -159,19 +170,66 @@ def plane_normal(points: Floats, reasons: Iterable[tuple[Floats, Floats]]) -> Fl
     if len(points) < 2:
         return None
     _, sizes, axes = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
-    if sizes[1] > FLAT * sizes[0]:
-        in_plane = len(sizes) < 3 or sizes[2] <= FLAT * sizes[0]
-        return axes[2] if in_plane else None
+    in_plane = len(sizes) < 3 or sizes[2] <= LEVEL * sizes[0]
+    if sizes[1] > LEVEL * sizes[0]:
+        return _near_global(axes[2]) if in_plane else None
     line = axes[0]
+    # what points out of a line by no more than its nodes do is along it
+    noise = 4.0 * float(sizes[1]) / (float(sizes[0]) or 1.0)
     for axis, push in reasons:
-        for across in (_across(axis, line), np.cross(line, push)):
+        for across, whole in ((_across(axis, line), axis), (np.cross(line, push), push)):
             size = float(np.linalg.norm(across))
-            if size > 0.0:
-                normal: Floats = across / size
-                return normal
-    return None
+            if size > noise * float(np.linalg.norm(whole)):
+                return _near_global(across / size)
+    # nothing bends it but that it is not quite straight
+    return _near_global(axes[2]) if in_plane and sizes[1] > FLAT * sizes[0] else None
 
 
 def _across(vector: Floats, line: Floats) -> Floats:
     across: Floats = vector - (vector @ line) * line
     return across if float(np.linalg.norm(across)) > FLAT * float(np.linalg.norm(vector)) else 0.0 * line
+
+
+def _near_global(normal: Floats) -> Floats:
+    """A normal, or the global axis from which it differs by no more than rounded coordinates make it."""
+    nearest = int(np.argmax(np.abs(normal)))
+    unit: Floats = math.copysign(1.0, float(normal[nearest])) * np.eye(3)[nearest]
+    return unit if EXACT < float(np.linalg.norm(normal - unit)) < LEVEL else normal
+
+
+def are_level(frames: Sequence[Frame], normal: Floats) -> bool:
+    """Whether members lie in a plane, and their sections in one way to it, but for rounding."""
+    across = [axis * math.copysign(1.0, float(axis @ normal)) for axis in _square_axes(frames, normal)]
+    return all(abs(float(frame.x @ normal)) <= EXACT for frame in frames) and all(
+        float(np.linalg.norm(axis - across[0])) <= EXACT for axis in across
+    )
+
+
+def _square_axes(frames: Sequence[Frame], normal: Floats) -> list[Floats]:
+    """Axes of sections that are normal to a plane but for rounded coordinates."""
+    turned = (max(frame.axes[1:], key=lambda axis: abs(float(axis @ normal))) for frame in frames)
+    return [axis for axis in turned if float(np.linalg.norm(np.cross(axis, normal))) < SQUARE]
+
+
+def levelled(frame: Frame, normal: Floats, *, is_round: bool) -> Frame:
+    """A frame turned into a plane, if it leads out of it by no more than rounded coordinates make it.
+
+    Its section is turned with it: an axis of it becomes the normal.  A round section has none.  Others that
+    lie obliquely to the plane stay.
+    """
+    along = frame.x - float(frame.x @ normal) * normal
+    along = along / float(np.linalg.norm(along) or 1.0)
+    square = bool(_square_axes([frame], normal))
+    if abs(float(frame.x @ normal)) >= SQUARE or not (square or is_round):
+        return frame
+    y, z = frame.y, frame.z
+    if square and abs(float(y @ normal)) > abs(float(z @ normal)):
+        y = math.copysign(1.0, float(y @ normal)) * normal
+    else:
+        if square:
+            z = math.copysign(1.0, float(z @ normal)) * normal
+        y = cross(z, along)
+        y = y / float(np.linalg.norm(y))
+    axes = np.array((along, y, cross(along, y)))
+    axes.flags.writeable = False
+    return Frame(frame.origin, axes, frame.length)

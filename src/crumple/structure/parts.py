@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from functools import cached_property
 from typing import Self, TypeVar
 
@@ -14,7 +15,7 @@ from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.registry.quantity import Acceleration, Position
 from crumple.section import Axis, Section
-from crumple.structure.geometry import Frame, frame_of, plane_normal
+from crumple.structure.geometry import Frame, are_level, frame_of, levelled, plane_normal
 from crumple.structure.keys.joint import Joint
 from crumple.structure.keys.law import LawKeys
 from crumple.structure.keys.load import Load, Mass, NodalImpulse
@@ -135,14 +136,35 @@ class StructureParts(Spec):
         return True
 
     def frame_of(self, member: str) -> Frame:
-        """Origin, axes and length of a member at the start."""
+        """Origin, axes and length of a member at the start.
+
+        Members of a structure in a plane lie in it exactly, however their coordinates are rounded: hinges
+        whose axes were not quite parallel would lock a closed loop.
+        """
         frames = self.kept.frames
         found: Frame | None = frames.get(member)
         if found is None:
-            found = frames[member] = self._frame_of(member)
+            found = self._own_frame_of(member)
+            if not self.kept.once("level", "", self._is_level):
+                section = self.sections.get(self.members[member].section)
+                is_round = section is not None and section.type == "circular_tube"
+                found = levelled(found, np.array(self.bending_normal), is_round=is_round)
+            frames[member] = found
         return found
 
-    def _frame_of(self, member: str) -> Frame:
+    def _is_level(self) -> bool:
+        """Whether the members' own axes are those of a plane, or not nearly so."""
+        normal = self.bending_normal
+        if normal is None:
+            return True
+        frames = []
+        for member, spec in self.members.items():
+            if spec.section in self.sections and all(node in self.nodes for node in spec.nodes):
+                with suppress(ValueError):
+                    frames.append(self._own_frame_of(member))
+        return are_level(frames, np.array(normal))
+
+    def _own_frame_of(self, member: str) -> Frame:
         spec = self.members[member]
         first, second = (self.nodes[name] for name in spec.nodes)
         return frame_of(first, second, up=spec.up, roll=spec.roll)

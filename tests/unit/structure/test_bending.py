@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from crumple.structure import Structure, placed_hinges
+from crumple.structure.bending import planar
 
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "density": 7850.0, "yield_stress": 488e6}
 TUBE = {"type": "rectangular_tube", "width": 0.05, "depth": 0.025, "thickness": 0.00265}
@@ -88,3 +89,77 @@ def test_looking_spoils_neither_comparison_nor_copies() -> None:
     assert axis_of(one) == "y"
     assert one == two
     assert axis_of(one.model_copy(update={"gravity": (0, 9.81, 0)})) == "z"
+
+
+def knee(section: dict[str, Any], turn: float, digits: int, **motion: Any) -> Structure:
+    """Three members in an upright plane that is turned about z; coordinates rounded to so many digits."""
+    along = np.array([np.cos(turn), np.sin(turn), 0.0])
+    places = {"a": (0.0, 0.0), "b": (0.1, 0.7), "c": (0.8, 0.9), "d": (1.1, 0.1)}
+    nodes = {name: tuple(np.round(x * along + [0.0, 0.0, z], digits)) for name, (x, z) in places.items()}
+    hinges = {"nodes": ("a", "b"), "section": "tube", "material": "steel"}
+    members = {
+        first + second: hinges | {"nodes": (first, second), "hinges": [{"name": first, "at": first}]}
+        for first, second in ("ab", "bc", "dc")
+    }
+    supports = {"one": {"node": "a", "fix": "all"}, "other": {"node": "d", "fix": "all"}}
+    velocity = [{"nodes": ["b"], "translation": tuple(3.0 * along)}]
+    rest = {"supports": supports, "initial_velocity": velocity} | motion
+    return Structure(
+        materials={"steel": STEEL}, sections={"tube": section}, nodes=nodes, members=members, **rest
+    )
+
+
+ROUND = {"type": "circular_tube", "diameter": 0.05, "thickness": 0.002}
+
+
+@pytest.mark.parametrize("section", [TUBE, ROUND], ids=["rectangular", "round"])
+@pytest.mark.parametrize("digits", [7, 6, 5])
+@pytest.mark.parametrize("turn", [0.2, 0.6])
+def test_hinges_of_a_frame_of_rounded_coordinates_are_parallel(
+    section: dict[str, Any], digits: int, turn: float
+) -> None:
+    """Axes that differ lock a closed loop, however little."""
+    structure = knee(section, turn, digits)
+    assert planar(structure)
+    axes = np.array([hinge.direction for hinge in placed_hinges(structure)])
+    assert np.abs(np.cross(axes[:1], axes)).max() < 1e-15
+    normal = (-np.sin(turn), np.cos(turn), 0.0)
+    np.testing.assert_allclose(np.abs(axes[0]), np.abs(normal), atol=1e-4)
+    lines = np.array([structure.frame_of(name).axes for name in structure.members])
+    assert np.abs(lines[:, 0] @ axes[0]).max() < 1e-15
+    np.testing.assert_allclose(lines @ lines.transpose(0, 2, 1), [np.eye(3)] * 3, atol=1e-15)
+
+
+def test_a_section_that_lies_obliquely_to_a_plane_keeps_its_axes() -> None:
+    exact, rounded = (
+        knee(TUBE, 0.2, digits).model_copy(
+            update={"members": {k: m.model_copy(update={"roll": 0.1}) for k, m in part.members.items()}}
+        )
+        for digits, part in ((16, knee(TUBE, 0.2, 16)), (6, knee(TUBE, 0.2, 6)))
+    )
+    for name in exact.members:
+        np.testing.assert_allclose(rounded.frame_of(name).axes, exact.frame_of(name).axes, atol=1e-5)
+
+
+def test_what_bends_a_tube_that_is_straight_but_for_rounding_decides_on_the_plane() -> None:
+    """And not the direction in which its middle is off the line."""
+
+    def normal(aside: float, **motion: Any) -> tuple[float, float, float] | None:
+        nodes = {"a": (0.0, 0.0, 0.0), "b": (0.5, aside, 0.0), "c": (1.0, 0.0, 0.0)}
+        plain = {"section": "tube", "material": "steel"}
+        members = {"ab": {"nodes": ("a", "b"), **plain}, "bc": {"nodes": ("b", "c"), **plain}}
+        return Structure(
+            materials={"steel": STEEL}, sections={"tube": TUBE}, nodes=nodes, members=members, **motion
+        ).bending_normal
+
+    pushed = {"initial_velocity": [{"translation": (0.0, 0.0, -3.0)}]}
+    for aside in (0.0, 1e-6, 1e-5, -5e-5):
+        found = normal(aside, **pushed)
+        assert found is not None
+        np.testing.assert_allclose(np.abs(found), (0.0, 1.0, 0.0), atol=1e-12)
+    along = {"initial_velocity": [{"translation": (-3.0, 0.0, 0.0)}]}
+    assert normal(0.0, **along) is None
+    for aside in (1e-5, 1e-3):
+        found = normal(aside, **along)
+        assert found is not None
+        np.testing.assert_allclose(np.abs(found), (0.0, 0.0, 1.0), atol=1e-12)

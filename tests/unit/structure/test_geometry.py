@@ -24,6 +24,12 @@ def test_vertical_member_takes_global_x_as_up():
     np.testing.assert_allclose(frame.y, [0, -1, 0], atol=1e-15)
 
 
+@pytest.mark.parametrize("aside", [(1e-5, 0.0), (0.0, -1e-5), (7e-6, 7e-6)])
+def test_rounded_coordinates_do_not_turn_the_section_of_an_upright_member(aside):
+    frame = frame_of((0, 0, 0), (*aside, 0.5))
+    np.testing.assert_allclose(frame.z, [1, 0, 0], atol=1e-4)
+
+
 def test_roll_turns_right_handed_about_x():
     frame = frame_of((0, 0, 0), (1, 0, 0), roll=np.pi / 2)
     np.testing.assert_allclose(frame.y, [0, 0, 1], atol=1e-15)

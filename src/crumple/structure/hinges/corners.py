@@ -23,8 +23,9 @@ from crumple.structure.parts import StructureParts
 
 ALONG = 1e-4
 """Component of a unit vector below which it does not point along another."""
-ALIKE = 1e-6
-"""Distance of the points of two outlines, over the section's largest side, below which they are one."""
+ALIKE = 5e-3
+"""Distance of the points of two outlines, over the section's largest side, below which they are one: square
+tubes turned by 0.4 degrees, far above rounded coordinates and far below a wall's thickness."""
 
 
 @dataclass(frozen=True)
@@ -137,9 +138,7 @@ def continues(structure: StructureParts, node: str) -> bool:
     across = np.cross(arriving, onward)
     bent = float(np.linalg.norm(across))
     normal = across / bent if bent > ALONG else structure.frame_of(first).y
-    return _same_points(
-        _outline(structure, first, arriving, normal), _outline(structure, second, onward, normal)
-    )
+    return _lie_alike(structure, ((first, arriving), (second, onward)), normal)
 
 
 def is_whole(structure: StructureParts, name: str) -> bool:
@@ -170,9 +169,7 @@ def _corner(structure: StructureParts, node: str, members: list[str]) -> Corner 
     axis = _axis_along(structure, first, normal)
     if axis is None:
         return "no axis of the section is normal to the corner's plane (out of plane)"
-    reference = _modelled(structure, first, axis)
-    directions = ((first, arriving), (second, onward))
-    if not all(_same_points(_outline(structure, *one, normal), reference) for one in directions):
+    if not _lie_alike(structure, ((first, arriving), (second, onward)), normal, axis):
         return "the section does not lie in the same way to the corner's plane in both members"
     ends_here = structure.members[first].nodes[1] == node
     along_normal = float(structure.frame_of(first).axis(axis) @ normal) > 0.0
@@ -231,6 +228,24 @@ def _axis_along(structure: StructureParts, member: str, normal: Floats) -> Axis 
     if structure.section_of(member).kind == "circular_tube":
         return "y"
     return None
+
+
+def _lie_alike(
+    structure: StructureParts,
+    members: tuple[tuple[str, Floats], ...],
+    normal: Floats,
+    axis: Axis | None = None,
+) -> bool:
+    """Whether one section lies in one way to a plane in members along given directions.
+
+    With an axis also as in the sub-model of a corner.  Round sections lie alike however they are turned.
+    """
+    first = members[0][0]
+    if structure.section_of(first).kind == "circular_tube":
+        return True
+    outlines = [_outline(structure, *one, normal) for one in members]
+    reference = outlines[0] if axis is None else _modelled(structure, first, axis)
+    return all(_same_points(outline, reference) for outline in outlines)
 
 
 def _outline(structure: StructureParts, member: str, along: Floats, normal: Floats) -> Floats:

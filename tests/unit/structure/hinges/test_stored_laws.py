@@ -235,6 +235,25 @@ def test_corners_without_a_sub_model_are_named_with_the_reason(change, reason):
     assert reason in untreated(whole)["b"]
 
 
+@pytest.mark.parametrize("across", [1e-6, 1e-5, 1e-3])
+def test_rounded_coordinates_leave_a_corner_what_it_is(across):
+    """1 mm in 0.5 m turns the arm's section by 0.1 deg; by 1 deg it lies in another way."""
+    near = frame(nodes=NODES | {"c": (0.5, across, 0.5)})
+    assert corners(near)["b"].angle == pytest.approx(math.pi / 2, abs=1e-9)
+    assert corners(near)["b"].axis == corners(frame())["b"].axis
+    aside = frame(nodes=NODES | {"c": (0.5, 0.01, 0.5)})
+    assert not corners(aside)
+
+
+@pytest.mark.parametrize("roll", [0.0, 0.3, 1.0])
+def test_round_tubes_lie_alike_in_a_corner_however_their_axes_are_turned(roll):
+    parts = {"sections": {"tube": {"type": "circular_tube", "diameter": 0.050, "thickness": 0.002}}}
+    members = {"post": {"nodes": ("a", "b"), "roll": roll, **PLAIN}, "arm": {"nodes": ("b", "c"), **PLAIN}}
+    for across in (0.0, 1e-6, 0.2):
+        whole = frame(members, nodes=NODES | {"c": (0.5, across, 0.5)}, **parts)
+        assert list(corners(whole)) == ["b"], across
+
+
 def test_members_in_line_and_three_members_are_no_corner():
     line = frame(nodes=NODES | {"c": (0.0, 0.0, 1.0)})
     assert not corners(line)
