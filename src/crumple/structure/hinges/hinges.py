@@ -63,6 +63,9 @@ STIFF = 0.1
 FIRM = 100.0
 """Capacity of an elastic joint over the largest capacity of its member's hinges: no impact reaches it, and
 tolerances relative to the largest capacity stay small."""
+SAME_PLACE = 1e-2 / 6.0
+"""Distance of joints about two axes that are one, over the length of their member: a hundredth of a segment
+of the six of an elastic member. Its bending about the second axis is wrong by about such a share."""
 
 OWN_HINGES = ("placed hinges", "")
 """Where a structure keeps what `placed_hinges` found."""
@@ -180,19 +183,16 @@ def elastic_joints(
 
     Those of an elastic member yield as its section does; the others have no plastic law.
     """
-    lengths: dict[float, dict[Axis, float]] = defaultdict(dict)
-    for axis, shares in about.items():
-        for station, length in shares.joints if shares.elastic else ():
-            lengths[station][axis] = length
+    lengths = _joint_lengths(about, SAME_PLACE * structure.frame_of(member).length)
     found = []
-    for i, (station, by_axis) in enumerate(sorted(lengths.items()), 1):
+    for i, (station, by_axis) in enumerate(lengths, 1):
         # no name of the input has a blank
         name = f"{member} elastic" if len(lengths) == 1 else f"{member} elastic {i}"
         records = {
             axis: _joint_record(structure, member, axis, (station, length), own)
-            for axis, length in by_axis.items()
+            for axis, length in sorted(by_axis.items())
         }
-        first = next(iter(records))
+        first = min(records)
         place = HingePlace(name, member, station, first, None, f"members.{member}")
         components = [HingeComponent(BENDING[axis], record) for axis, record in records.items()]
         coupling = Coupling.ELLIPSOID if structure.members[member].elastic else Coupling.NONE
@@ -211,6 +211,27 @@ def elastic_joints(
                 plastic=False,
             )
         )
+    return found
+
+
+def _joint_lengths(about: dict[Axis, AxisShares], near: float) -> list[tuple[float, dict[Axis, float]]]:
+    """Stations of joints along a member, with the length that each stands for about its axes [m].
+
+    Joints about two axes that are nearer to each other than `near` are one, at the first: a body between
+    them would have no mass to speak of.
+    """
+    along = sorted(
+        (station, axis, length)
+        for axis, shares in about.items()
+        if shares.elastic
+        for station, length in shares.joints
+    )
+    found: list[tuple[float, dict[Axis, float]]] = []
+    for station, axis, length in along:
+        if found and station - found[-1][0] < near and axis not in found[-1][1]:
+            found[-1][1][axis] = length
+        else:
+            found.append((station, {axis: length}))
     return found
 
 
