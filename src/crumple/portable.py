@@ -8,7 +8,9 @@ from __future__ import annotations
 import codecs
 import errno
 import os
+import shlex
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -68,6 +70,12 @@ def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
         yield pressed.is_set
     finally:
         restore()
+
+
+def command_line(*words: object) -> str:
+    """A command to be copied into a shell: words with blanks are quoted."""
+    texts = [str(word) for word in words]
+    return subprocess.list2cmdline(texts) if WINDOWS else shlex.join(texts)
 
 
 @contextmanager

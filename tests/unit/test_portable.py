@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from crumple import portable
+from crumple.hinge.law_use import LawUse
 from crumple.portable import (
     available_cores,
     console_takes_all,
@@ -138,3 +139,11 @@ def test_a_run_prints_its_title_on_any_console(tmp_path, more):
     )
     assert (done.returncode, done.stderr) == (0, b"")
     assert (b"Tr\\u00e4ger \\u22125 \\u6881" if more else b"Tr\xe4ger -5 ?") in done.stdout
+
+
+@pytest.mark.skipif(portable.WINDOWS, reason="quotes of POSIX shells")
+def test_commands_that_are_suggested_have_quotes_where_paths_have_blanks():
+    assert portable.command_line("crumple", "run", Path("my tube.yaml")) == "crumple run 'my tube.yaml'"
+    use = LawUse("formula", "abc", command="crumple characterise INPUT:tube")
+    assert "crumple characterise 'my tube.yaml':tube" in use.sentence("my tube.yaml")
+    assert "crumple characterise tube.yaml:tube" in use.sentence("tube.yaml")

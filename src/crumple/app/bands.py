@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from crumple.errors import CancelledError
+
 if TYPE_CHECKING:
     from crumple.analysis import LoadedInput
     from crumple.result import Result
@@ -34,7 +36,10 @@ def bands_of(source: LoadedInput, result: Result, stopped: Callable[[], bool]) -
     if not bands:
         return None
     times = np.linspace(0.0, float(result.time[-1]), SAMPLES)
-    table = solve_variants(structure, run_of(source.analysis), factors, cancel=stopped, times=times[1:])
+    try:
+        table = solve_variants(structure, run_of(source.analysis), factors, cancel=stopped, times=times[1:])
+    except CancelledError:
+        return None
     good = np.array([status.ok for status in table.status])
     if stopped() or not good.any():
         return None

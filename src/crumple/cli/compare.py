@@ -79,7 +79,7 @@ def compare(
     from crumple.cli.console.shell_run import RESTART, remove_restart
     from crumple.cli.console.storing import report_input, stored
     from crumple.comparison import picture_times, with_mesh
-    from crumple.portable import stop_on_interrupt
+    from crumple.portable import command_line, stop_on_interrupt
     from crumple.report import write_comparison
 
     source = with_store(load_input(file), laws, freeze_laws)
@@ -96,7 +96,8 @@ def compare(
         remove_restart(folder / "shell", found.reference.result)
         _show(found, folder, source)
         if (folder / "shell" / RESTART).exists():
-            typer.echo(f"Continue with the same command and --restart {folder / 'shell' / RESTART}")
+            more = command_line("--restart", folder / "shell" / RESTART)
+            typer.echo(f"Continue with the same command and {more}")
     if not all(s.result.status.ok for s in (found.candidate, found.reference)):
         raise typer.Exit(1)
 

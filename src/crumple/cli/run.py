@@ -205,11 +205,11 @@ def _summary(result: Result) -> dict[str, Any]:
 def _show_restart(file: Path, folder: Path) -> None:
     """Print the command that continues an interrupted shell run."""
     from crumple.cli.console.shell_run import RESTART
+    from crumple.portable import command_line
 
     if (folder / RESTART).exists():
-        typer.echo(
-            f"Continue with: crumple run {file} --fidelity shell --out {folder} --restart {folder / RESTART}"
-        )
+        words = ("--fidelity", "shell", "--out", folder, "--restart", folder / RESTART)
+        typer.echo(f"Continue with: {command_line('crumple', 'run', file, *words)}")
 
 
 def _show(result: Result, folder: Path, source: LoadedInput) -> None:

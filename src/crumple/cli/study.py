@@ -59,7 +59,8 @@ def study(
             _target(file, out, count, executor, resume=resume)
         return
     loaded = LoadedStudy(file)
-    with results_folder(out, file) as folder, _executor(scheduler, limit, workers) as (executor, count):
+    begun = results_folder(out, file), _executor(scheduler, limit, workers)
+    with begun[0] as folder, _resumable(file, folder), begun[1] as (executor, count):
         if not resume:
             _forget(folder)
         with progress_bar("solving") as progress, results_errors(folder):
@@ -94,6 +95,19 @@ def _executor(
         yield executor, executor.workers
 
 
+@contextmanager
+def _resumable(file: Path, folder: Path, *more: str) -> Iterator[None]:
+    """Say after Ctrl-C that rows are kept, and which command goes on."""
+    from crumple.errors import CancelledError
+    from crumple.portable import command_line
+
+    try:
+        yield
+    except KeyboardInterrupt:
+        again = command_line("crumple", "study", file, "--out", folder, *more, "--resume")
+        raise CancelledError(f"Stopped; the rows so far are kept. Go on with: {again}") from None
+
+
 def _part(
     file: Path, out: str | None, part: str, workers: int, executor: Executor | None, *, resume: bool
 ) -> None:
@@ -106,7 +120,7 @@ def _part(
     wanted, loaded = read_part(part), LoadedStudy(file)
     whole = Path(out) if out is not None else Path("out") / file.stem
     place = part_file(whole, wanted)
-    with results_folder(place.parent, file) as folder:
+    with results_folder(place.parent, file) as folder, _resumable(file, whole, "--part", part):
         if not resume:
             _forget(folder, (place.name,))
         with progress_bar("solving") as progress, results_errors(place.parent):
@@ -146,7 +160,7 @@ def _target(file: Path, out: str | None, workers: int, executor: Executor | None
     from crumple.units import format_quantity
 
     loaded = LoadedTarget(file)
-    with results_folder(out, file) as folder:
+    with results_folder(out, file) as folder, _resumable(file, folder):
         for name in loaded.studies if not resume else ():
             _forget(folder / name)
         with progress_bar("solving") as progress, results_errors(folder):

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from crumple.portable import command_line
+
 Origin = Literal["user", "stored", "library", "formula", "estimate"]
 INPUT = "INPUT"
 """Stands for the name of the input file in a command: a structure does not know it."""
@@ -42,5 +44,5 @@ class LawUse:
             "estimate": "estimate without evidence",
         }
         band = "band not known" if self.band is None else f"band ±{100.0 * self.band:.2g} %"
-        better = f"; better: {self.command.replace(INPUT, file)}" if self.command else ""
+        better = f"; better: {self.command.replace(INPUT, command_line(file))}" if self.command else ""
         return f"{words[self.origin]}, {band}, {self.content}{better}"

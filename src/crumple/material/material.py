@@ -8,6 +8,18 @@ from dataclasses import dataclass
 from crumple.errors import InputError, Problem
 from crumple.material.hardening.curve import HardeningCurve
 from crumple.material.rate import RateLaw
+from crumple.registry.quantity import texts_to_si
+
+UNITS = {
+    "youngs_modulus": "Pa",
+    "poissons_ratio": "1",
+    "density": "kg/m^3",
+    "yield_stress": "Pa",
+    "ultimate_stress": "Pa",
+    "given_flow_stress": "Pa",
+    "failure_strain": "1",
+}
+"""SI unit of each number of a material; texts with units are taken too."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +68,7 @@ class Material:
     failure_strain: float | None = None
 
     def __post_init__(self) -> None:
+        texts_to_si(self, UNITS)
         problems = [*_not_positive(self), *_inconsistent(self)]
         if problems:
             raise InputError(problems)

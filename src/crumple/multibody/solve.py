@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -41,6 +42,8 @@ FORK = 0.05
 """Difference of the rotations of two runs over the largest one that accuracy alone hardly explains."""
 FAILED = frozenset({Outcome.STEP_COLLAPSED, Outcome.STALLED, Outcome.NOT_FINITE})
 """Ends of a run with members that bend after which rigid bars are tried."""
+CHECKED_FROM = 0.4
+"""Share of the progress at which the runs with changed capacities begin, which are four coarse ones."""
 FINER = (0.1, 0.01)
 """Shares of the accuracy at which a planar run is repeated whose energy residual exceeds its bound; a
 hundredth takes some ten times the steps."""
@@ -80,22 +83,23 @@ def solve_multibody(
     begin = time.perf_counter()
     given, structure = structure, with_elastic_members(structure, run.settings, run.duration)
     accuracy = run.settings.accuracy
-    poll = poll_of(run.duration, (0.0, 0.7), progress, cancel)
     try:
         with asking(cancel):
             refuse_pictures(structure, len(picture_times(run)))
             solver = solver_of(structure, run)
             if not solver.moving:
                 raise _nothing_moves()
+            checked = CHECKED_FROM if run.checks and _check_asked(structure, run, solver) else 1.0
+            poll = poll_of(run.duration, (0.0, 0.7 * checked), progress, cancel)
             solved = rough = solver.run(accuracy / CHECK_FACTOR, poll)
-            poll = poll_of(run.duration, (0.7, 0.7), progress, cancel)
+            poll = poll_of(run.duration, (0.7 * checked, 0.7 * checked), progress, cancel)
             solved, accuracy = _balanced(solver, solved, run, poll)
     except CancelledError as error:
         return _nothing_solved(run, str(error), time.perf_counter() - begin)
     if structure is not given and run.settings.members == "auto" and solved.outcome in FAILED:
         return _with_rigid_bars(given, run, solved, progress, cancel)
     if solved.outcome is Outcome.COMPLETE and run.checks:
-        poll = poll_of(run.duration, (0.7, 1.0), progress, cancel)
+        poll = poll_of(run.duration, (0.7 * checked, checked), progress, cancel)
         try:
             with asking(cancel):
                 rough = solver.run(accuracy, poll, ends_only=True)
@@ -106,8 +110,9 @@ def solve_multibody(
     if run.checks and solved.outcome is Outcome.COMPLETE and rough.outcome is Outcome.COMPLETE:
         errors = _errors(rough, solved)
         if errors.max(initial=0.0) > FORK * max((one.rotation_max for one in solved.hinges), default=0.0):
-            errors = _errors_beside_finer(solver, solved, errors, run, cancel)
-    doubt = _doubt(structure, run, solver, rough, cancel) if run.checks else None
+            poll = poll_of(run.duration, (checked, checked), progress, cancel)
+            errors = _errors_beside_finer(solver, solved, errors, run, (poll, cancel))
+    doubt = _doubt(structure, run, solver, rough, (progress, cancel)) if run.checks else None
     seconds = time.perf_counter() - begin
     return _result(
         structure, run, solver, solved, errors=errors, doubt=doubt, seconds=seconds, accuracy=accuracy
@@ -159,10 +164,10 @@ def _errors(rough: Solved, solved: Solved) -> Floats:
 
 
 def _errors_beside_finer(
-    solver: Solver, solved: Solved, errors: Floats, run: Run, cancel: Cancel | None
+    solver: Solver, solved: Solved, errors: Floats, run: Run, asked: tuple[Poll, Cancel | None]
 ) -> Floats:
     """Errors from a run that is finer than the answer: a coarser one may take another path near a fork."""
-    poll = poll_of(run.duration, (1.0, 1.0), None, cancel)
+    poll, cancel = asked
     try:
         with asking(cancel):
             finer = solver.run(run.settings.accuracy / CHECK_FACTOR**2, poll, ends_only=True)
@@ -185,19 +190,29 @@ def solver_of(structure: Structure, run: Run) -> Solver:
     return SpatialSolver(structure, run, hinges)
 
 
+def _check_asked(structure: Structure, run: Run, solver: Solver) -> bool:
+    """Whether the run is to be solved again with changed capacities."""
+    asked = run.settings.mechanism_check
+    wanted = asked == "on" or (asked == "auto" and any_automatic(structure))
+    return wanted and sum(hinge.plastic for hinge in solver.hinges) >= 2
+
+
 def _doubt(
-    structure: Structure, run: Run, solver: Solver, rough: Solved, cancel: Cancel | None
+    structure: Structure,
+    run: Run,
+    solver: Solver,
+    rough: Solved,
+    watch: tuple[Progress | None, Cancel | None],
 ) -> str | None:
     """A warning if the structure folds elsewhere after a small change of the capacities."""
-    asked = run.settings.mechanism_check
-    n_plastic = sum(hinge.plastic for hinge in solver.hinges)
-    if asked == "off" or (asked == "auto" and not any_automatic(structure)) or n_plastic < 2:
+    if not _check_asked(structure, run, solver) or rough.outcome is not Outcome.COMPLETE:
         return None
-    if rough.outcome is not Outcome.COMPLETE:
-        return None
+    progress, cancel = watch
     runs = [rough.hinges]
-    poll = poll_of(run.duration, (1.0, 1.0), None, cancel)
-    for hinges in changed_capacities(placed_hinges(structure)):
+    cases = list(changed_capacities(placed_hinges(structure)))
+    parts = np.linspace(CHECKED_FROM, 1.0, len(cases) + 1).tolist()
+    for hinges, part in zip(cases, pairwise(parts), strict=True):
+        poll = poll_of(run.duration, part, progress, cancel)
         try:
             with asking(cancel):
                 solved = solver.with_hinges(hinges).run(run.settings.accuracy, poll, ends_only=True)

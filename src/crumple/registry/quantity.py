@@ -7,10 +7,12 @@ text is converted; in an input file a bare number is refused unless it is 0, bec
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from numbers import Real
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
+from crumple.errors import InputError
 from crumple.registry.refusal import refuse
 from crumple.units import QuantityError, parse_quantity
 
@@ -156,6 +158,34 @@ class Dimension:
             "examples": [self.example],
             "x-unit": self.unit,
         }
+
+
+def texts_to_si(given: object, units: Mapping[str, str]) -> None:
+    """Replace texts with units among attributes of a frozen object by SI numbers.
+
+    Parameters
+    ----------
+    given
+        An object whose attributes are being checked.
+    units
+        SI unit by attribute.
+
+    Raises
+    ------
+    InputError
+        With every text that is no quantity of its unit.
+    """
+    problems = []
+    for name, unit in units.items():
+        value = getattr(given, name)
+        if not isinstance(value, str):
+            continue
+        try:
+            object.__setattr__(given, name, parse_quantity(value, unit))
+        except QuantityError as error:
+            problems += [replace(problem, where=name) for problem in error.problems]
+    if problems:
+        raise InputError(problems)
 
 
 @dataclass(frozen=True)

@@ -6,13 +6,19 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from crumple.material import Material
+from crumple.registry.quantity import texts_to_si
+from crumple.units import parse_quantity
 
 Point = tuple[float, float]
 
 
 def _points(points: Iterable[Iterable[float]]) -> tuple[Point, ...]:
     """Points as a tuple of pairs of floats, so that a wall can be hashed."""
-    return tuple((float(y), float(z)) for y, z in points)
+    return tuple((_length(y), _length(z)) for y, z in points)
+
+
+def _length(given: float | str) -> float:
+    return parse_quantity(given, "m") if isinstance(given, str) else float(given)
 
 
 @dataclass(frozen=True)
@@ -43,6 +49,7 @@ class Wall:
     name: str = ""
 
     def __post_init__(self) -> None:
+        texts_to_si(self, {"thickness": "m", "corner_radius": "m"})
         object.__setattr__(self, "points", _points(self.points))
 
 

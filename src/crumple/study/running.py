@@ -31,7 +31,7 @@ from crumple.study.rows import (
 from crumple.study.setting import Setting, setting_for, setting_of
 from crumple.study.space import Axis
 from crumple.study.study_file import LAYOUT, LoadedStudy, Study
-from crumple.study.table import CSV, FILE, FRONT, VERIFY_FILE, Table, write_csv
+from crumple.study.table import CSV, FILE, FRONT, VERIFY_FILE, Table, unwatched, write_csv
 from crumple.study.verify import chosen_rows, verification
 
 Function = Callable[[Mapping[str, Floats]], Mapping[str, Floats]]
@@ -124,10 +124,7 @@ def run_part(
         with _model(setting, study, workers, executor) as model:
             table = part_table(setting, model, out, part)
             try:
-                for first in range(0, len(points), GROUP):
-                    table.solve(points[first : first + GROUP])
-                    if progress is not None:
-                        progress(min((first + GROUP) / len(points), 1.0))
+                table.solve_in_groups(points, GROUP, progress or unwatched)
             finally:
                 table.close()
     return len(points), table.solved
@@ -236,7 +233,7 @@ def _run(
     table = Table(setting.axes, names, model, path, setting.identity)
     try:
         with _frozen():
-            answer = asked(setting, table, progress or (lambda share: None))
+            answer = asked(setting, table, progress or unwatched)
     finally:
         table.close()
     return table, answer
@@ -295,10 +292,7 @@ def _verified(
     numbers = [*chosen[0], *chosen[1]]
     slow = Table(setting.axes, names, model, path, identity, by_point=True)
     try:
-        for done, row in enumerate(range(0, len(numbers), AT_ONCE)):
-            slow.solve([table.points[i] for i in numbers[row : row + AT_ONCE]])
-            if progress is not None:
-                progress(min((done + 1) * AT_ONCE / len(numbers), 1.0))
+        slow.solve_in_groups([table.points[i] for i in numbers], AT_ONCE, progress or unwatched)
     finally:
         slow.close()
     return replace(answer, verification=verification(study, table, slow, setting.slow_limits, chosen))

@@ -7,7 +7,7 @@ import math
 import os
 import sqlite3
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from itertools import count
 from pathlib import Path
@@ -31,6 +31,13 @@ COMMITTING = 0.05
 """Share of the time that commits may take."""
 LATEST = 0.5
 """Time since the last commit [s] from which new rows are committed at once in any case."""
+
+Progress = Callable[[float], object]
+"""Called with the share that is done, 0 to 1."""
+
+
+def unwatched(share: float) -> None:
+    """Progress that nobody looks at."""
 
 
 class Table:
@@ -128,33 +135,43 @@ class Table:
         finally:
             self._file.close()
 
-    def solve(self, points: Sequence[Point]) -> list[Row]:
-        """Rows of further points; equal points are solved once."""
+    def solve(self, points: Sequence[Point], progress: Progress = unwatched) -> list[Row]:
+        """Rows of further points; equal points are solved once.  `progress`: told the share that is known."""
         first = len(self.points)
         self.points += points
         if self._known.keys().isdisjoint(points) and len(set(points)) == len(points):
-            return self._solve_new(points, first)
+            return self._solve_new(points, first, progress)
         numbers: dict[Point, list[int]] = {}
         for i, point in enumerate(points, first):
             numbers.setdefault(point, []).append(i)
         self._store([(i, self._known[p]) for p, own in numbers.items() if p in self._known for i in own])
         missing = [point for point in numbers if point not in self._known]
+        left = len(missing)
         for group in self._model.rows(missing):
             for i, row in group:
                 self._known[missing[i]] = row
             self._store([(k, row) for i, row in group for k in numbers[missing[i]]])
             self.solved += len(group)
+            left -= len(group)
+            progress(1.0 - left / len(numbers))
         found = [self._known[point] for point in points]
         self.rows += found
         return found
 
-    def _solve_new(self, points: Sequence[Point], first: int) -> list[Row]:
+    def solve_in_groups(self, points: Sequence[Point], size: int, progress: Progress) -> None:
+        """`solve` in groups of so many points; `progress`: told the share of all points that is known."""
+        for first in range(0, len(points), size):
+            part = points[first : first + size]
+            self.solve(part, _part_of(progress, first / len(points), len(part) / len(points)))
+
+    def _solve_new(self, points: Sequence[Point], first: int, progress: Progress) -> list[Row]:
         """Rows of points that differ from each other and from all before."""
         found: dict[int, Row] = {}
         for group in self._model.rows(points):
             found.update(group)
             self._store(group, first)
             self.solved += len(group)
+            progress(len(found) / len(points))
         rows = [found[i] for i in range(len(points))]
         self._known.update(zip(points, rows, strict=True))
         self.rows += rows
@@ -252,6 +269,11 @@ class Table:
         except ImportError:
             todo = "install it: python -m pip install pyarrow; or read study.csv"
             raise InputError(Problem("pyarrow is not installed", todo=todo)) from None
+
+
+def _part_of(progress: Progress, begun: float, size: float) -> Progress:
+    """Progress of a part of something."""
+    return lambda share: progress(begun + size * share)
 
 
 @contextmanager

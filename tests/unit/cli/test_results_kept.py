@@ -15,7 +15,7 @@ from tests.support.long_chains import member_of_bars
 from crumple.cli.console import defect, storing
 from crumple.cli.console.folder import LOCK, results_folder
 from crumple.cli.main import main
-from crumple.errors import InputError
+from crumple.errors import CancelledError, InputError
 from crumple.portable import PART
 from crumple.result.publishing import published
 
@@ -212,3 +212,24 @@ def test_a_second_interrupt_reports_what_is_lost(command, tmp_path, monkeypatch)
     assert code == 130
     assert "second Ctrl-C: no results of this run were kept" in errors
     assert not list((tmp_path / "out").glob("*.json"))
+
+
+def test_a_run_is_kept_if_the_runs_beside_it_are_stopped(command, tmp_path, monkeypatch):
+    """Ctrl-C comes while variants are prepared."""
+    path = tmp_path / "case.yaml"
+    varied = (
+        "uncertainty:\n  rows: 50\n  variables:\n    wall:\n      path: sections.tube.thickness\n"
+        "      distribution: {type: uniform, low: 1.8 mm, high: 2.2 mm}\n      source: assumed\n"
+    )
+    path.write_text(EXAMPLE.read_text(encoding="utf-8") + varied, encoding="utf-8")
+
+    def stopped(*_, **__):
+        raise CancelledError("cancelled while the variants were prepared: none was solved")
+
+    monkeypatch.setattr("crumple.analysis.with_law_range", stopped)
+    monkeypatch.setattr("crumple.analysis.with_modes", stopped)
+    monkeypatch.setattr("crumple.multibody.variants.variants._cases", stopped)
+    code, _, errors = command("run", path, "--out", tmp_path / "out", "--law-range", "--modes")
+    assert code == 0
+    assert errors.count("Stopped: ") == 3
+    assert json.loads((tmp_path / "out" / "summary.json").read_text())["ok"]

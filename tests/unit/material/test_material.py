@@ -85,3 +85,12 @@ def test_cowper_symonds():
 def test_impossible_rate_laws_are_refused(D, q):
     with pytest.raises(InputError):
         CowperSymonds(D, q)
+
+
+def test_texts_carry_their_units():
+    plain = Material("steel", 210e9, 0.3, 7850.0, 350e6, ultimate_stress=450e6)
+    texts = Material("steel", "210 GPa", 0.3, "7850 kg/m^3", "350 MPa", ultimate_stress="450 MPa")
+    assert texts == plain
+    with pytest.raises(InputError) as refused:
+        Material("steel", "210 mm", 0.3, "7850", 350e6)
+    assert [problem.where for problem in refused.value.problems] == ["youngs_modulus", "density"]

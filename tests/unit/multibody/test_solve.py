@@ -88,6 +88,15 @@ def test_progress_runs_from_nothing_to_the_whole():
     assert shares[-1] <= 1.0
 
 
+def test_runs_with_changed_capacities_are_part_of_the_progress():
+    shares = []
+    two = {"bar": member("a", "b", ("h", 0.1), ("i", 0.4))}
+    settings = MultibodySettings(mechanism_check="on")
+    solve_multibody(thrown(members=two), Run(0.05, 5e-5, settings), progress=shares.append)
+    assert shares == sorted(shares)
+    assert {0.55, 0.7, 0.85} <= {round(share, 9) for share in shares}
+
+
 def test_cancel_keeps_what_there_is():
     asked = []
 

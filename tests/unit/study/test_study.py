@@ -304,6 +304,27 @@ def test_the_command(run_command, tmp_path):
     assert '"sobol_indices"' in out
 
 
+def test_rows_are_followed_one_by_one(tmp_path):
+    shares = []
+    loaded = LoadedStudy(written(tmp_path, "{type: sobol, rows: 32}"))
+    run_study(loaded, tmp_path, progress=shares.append)
+    assert shares == sorted(shares)
+    assert len(shares) > 1
+    assert (shares[0], shares[-1]) == (4 / 32, 1.0)
+
+
+def test_an_interrupted_study_says_how_to_go_on(run_command, tmp_path, monkeypatch):
+    def interrupted(*_):
+        raise KeyboardInterrupt
+
+    file = written(tmp_path, "{type: sobol, rows: 32}")
+    monkeypatch.setattr("crumple.study.table.Table._store", interrupted)
+    code, out, err = run_command("study", file, "--out", tmp_path / "my rows", "--workers", 1)
+    assert (code, out) == (130, "")
+    assert "the rows so far are kept" in err
+    assert f"crumple study {file} --out '{tmp_path / 'my rows'}' --resume" in " ".join(err.split())
+
+
 def test_the_command_says_that_a_response_is_constant(run_command, tmp_path):
     """The mass does not depend on the speed."""
     response = ROTATION + "\n  m: {mass: true}"

@@ -34,12 +34,15 @@ def with_scatter(result: Result, source: LoadedInput, threads: int, cancel: Call
     if source.analysis.uncertainty is None:
         return result
     from crumple.cli.console.progress import progress_bar
-    from crumple.errors import InputError
+    from crumple.errors import CancelledError, InputError
     from crumple.study import with_uncertainty
 
     try:
         with progress_bar("solving variants") as progress:
             return with_uncertainty(result, source.analysis, threads, progress, cancel)
+    except CancelledError:
+        typer.echo("Stopped: the scatter is not known. Writing the results of the run itself.", err=True)
+        return result
     except InputError as error:
         problem = source.with_lines(error).problems[0]
         typer.echo(f"The scatter is not known: {problem.what} ({problem.where})", err=True)
@@ -50,11 +53,14 @@ def with_its_modes(result: Result, source: LoadedInput, threads: int, cancel: Ca
     """The result with the modes of collapse; what is solved is kept if they cannot be computed."""
     from crumple.analysis import with_modes
     from crumple.cli.console.progress import progress_bar
-    from crumple.errors import InputError
+    from crumple.errors import CancelledError, InputError
 
     try:
         with progress_bar("solving modes") as progress:
             return with_modes(result, source.analysis, threads, progress, cancel)
+    except CancelledError:
+        typer.echo("Stopped: the modes of collapse are not known", err=True)
+        return result
     except InputError as error:
         typer.echo(f"The modes of collapse are not known: {error.problems[0].what}", err=True)
         return result

@@ -101,10 +101,13 @@ def range_lines(result: Result) -> Iterator[str]:
 def with_range(result: Result, source: LoadedInput, threads: int, cancel: Callable[[], bool]) -> Result:
     """The result with its range from the laws; what is solved is kept if the range cannot be computed."""
     from crumple.analysis import with_law_range
-    from crumple.errors import InputError
+    from crumple.errors import CancelledError, InputError
 
     try:
         return with_law_range(result, source.analysis, threads, cancel)
+    except CancelledError:
+        typer.echo("Stopped: the range from the laws is not known", err=True)
+        return result
     except InputError as error:
         typer.echo(f"The range from the laws is not known: {error.problems[0].what}", err=True)
         return result

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from crumple._core.outcome import Outcome
-from crumple.errors import InputError, Problem, Status
+from crumple.errors import CancelledError, InputError, Problem, Status
 from crumple.multibody.answer.end_values import OF_NODES
 from crumple.multibody.answer.solved import Poll
 from crumple.multibody.kernel_choice import why_spatial
@@ -53,6 +53,8 @@ REASONS = {
 
 OTHER_PARTS = "these values connect other parts than in the structure"
 """Why a variant is refused that has other bodies and joints: as a structure of its own it can be solved."""
+PREPARED = 0.5
+"""Share of the progress that is the preparation of variants with laws of their own, which has one thread."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +134,8 @@ def solve_variants(
     threads
         Number of threads; None for as many as there are cores for this process.  Results do not depend on it.
     progress, cancel
-        As in `solve_multibody`; variants not begun when cancelled have that status.
+        As in `solve_multibody`; variants not begun when cancelled have that status.  The first `PREPARED` of
+        the progress is the preparation of variants that change more than factors and masses.
     times
         Increasing times [s] at which quantities are wanted too.  In a plane and in quasi-static stages steps
         end at them, so that final values differ from those without them within the accuracy.
@@ -146,6 +149,8 @@ def solve_variants(
     ------
     InputError
         If the structure itself cannot be solved, or a parameter does not exist.
+    CancelledError
+        If it is cancelled while the variants are prepared: there are no rows yet.
 
     Notes
     -----
@@ -162,9 +167,9 @@ def solve_variants(
     count = threads or available_cores()
     poll = _poll(progress, cancel)
     sampled = np.asarray(times, float)
-    if why_spatial(structure, placed_hinges(structure), run) is None:
-        return _table(PlanarBatch(run), structure, parameters, count, poll, sampled)
-    return _table(SpatialBatch(run), structure, parameters, count, poll, sampled)
+    planar = why_spatial(structure, placed_hinges(structure), run) is None
+    batch: Batch = PlanarBatch(run) if planar else SpatialBatch(run)
+    return _table(batch, structure, parameters, count, poll, sampled)
 
 
 def _table(
@@ -177,8 +182,9 @@ def _table(
 ) -> VariantTable:
     base = batch.case(structure)
     values = _columns(structure, hinge_names(base), parameters)
-    cases, case_of, refused = _cases(batch, structure, values, base)
-    ends = batch.solve(values, cases, case_of, threads, poll, times=times.tolist())
+    cases, case_of, refused = _cases(batch, structure, values, base, poll)
+    solving = _later(poll, PREPARED) if len(cases) > 1 else poll
+    ends = batch.solve(values, cases, case_of, threads, solving, times=times.tolist())
     bound = batch.run.settings.energy_residual_bound
     status, reason = _outcomes(ends.outcome, ends.residual, refused, bound)
     quantities = batch.quantities(cases, case_of, ends)
@@ -221,7 +227,7 @@ def _column(name: str, given: ArrayLike) -> Floats:
 
 
 def _cases(
-    batch: Batch, structure: Structure, values: Mapping[str, Floats], base: Case
+    batch: Batch, structure: Structure, values: Mapping[str, Floats], base: Case, poll: Poll | None
 ) -> tuple[list[Case], NDArray[np.int64], dict[int, str]]:
     """A case for every distinct combination of slow parameters, the case of each variant, and refusals."""
     count = len(next(iter(values.values())))
@@ -233,6 +239,8 @@ def _cases(
     distinct, combination = np.unique(rows, axis=0, return_inverse=True)
     cases, number, failed = [base], np.zeros(len(distinct), np.int64), {}
     for i, combined in enumerate(distinct):
+        if poll is not None and not poll(PREPARED * i / len(distinct)):
+            raise CancelledError("cancelled while the variants were prepared: none was solved")
         try:
             new = changed(structure, dict(zip(slow, map(float, combined), strict=True)))
             case = batch.case(new, moved=moved)
@@ -258,6 +266,11 @@ def _poll(progress: Progress | None, cancel: Cancel | None) -> Callable[[float],
         return not (cancel is not None and cancel())
 
     return poll
+
+
+def _later(poll: Poll | None, begun: float) -> Poll | None:
+    """A poll whose share done begins at this one."""
+    return None if poll is None else lambda share: poll(begun + (1.0 - begun) * share)
 
 
 def _outcomes(

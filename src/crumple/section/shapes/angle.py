@@ -10,7 +10,12 @@ from crumple.errors import InputError
 from crumple.registry.quantity import NonNegativeLength, PositiveLength
 from crumple.section.section import not_positive
 from crumple.section.shapes.shape import Example, Shape
-from crumple.section.shapes.shape_checks import in_title, must_be_below, must_not_be_negative
+from crumple.section.shapes.shape_checks import (
+    in_title,
+    lengths_of_texts,
+    must_be_below,
+    must_not_be_negative,
+)
 from crumple.section.wall import Wall
 from crumple.section.walled import WalledSection
 
@@ -48,6 +53,7 @@ class Angle(WalledSection):
     corner_radius: NonNegativeLength = 0.0
 
     def __post_init__(self) -> None:
+        lengths_of_texts(self)
         problems = not_positive(
             {"width": self.width, "depth": self.depth, "thickness": self.thickness}, "give outer dimensions"
         )

@@ -12,6 +12,7 @@ from crumple.registry.quantity import PositiveLength
 from crumple.section.outline import circle
 from crumple.section.section import Axis, ByAxis, checked_axis, in_mm, not_positive
 from crumple.section.shapes.shape import Example, Shape
+from crumple.section.shapes.shape_checks import lengths_of_texts
 
 
 @dataclass(frozen=True)
@@ -41,6 +42,7 @@ class CircularTube(ByAxis):
     thickness: PositiveLength
 
     def __post_init__(self) -> None:
+        lengths_of_texts(self)
         problems = not_positive(
             {"diameter": self.diameter, "thickness": self.thickness}, "give the outer diameter"
         )

@@ -13,7 +13,12 @@ from crumple.registry.quantity import NonNegativeLength, PositiveLength
 from crumple.section.section import not_positive
 from crumple.section.shapes.hat import hat_wall
 from crumple.section.shapes.shape import Example, Shape
-from crumple.section.shapes.shape_checks import in_title, must_be_below, must_not_be_negative
+from crumple.section.shapes.shape_checks import (
+    in_title,
+    lengths_of_texts,
+    must_be_below,
+    must_not_be_negative,
+)
 from crumple.section.wall import Wall, Weld
 from crumple.section.walled import WalledSection
 
@@ -68,6 +73,7 @@ class ClosedHat(WalledSection):
     plate_material: Material | None = None
 
     def __post_init__(self) -> None:
+        lengths_of_texts(self)
         lengths = {
             "width": self.width,
             "depth": self.depth,

@@ -24,6 +24,7 @@ from crumple.registry.quantity import NonNegativeLength, PositiveLength
 from crumple.section.outline import rounded_rectangle
 from crumple.section.section import Axis, ByAxis, checked_axis, in_mm, not_positive
 from crumple.section.shapes.shape import Example, Shape
+from crumple.section.shapes.shape_checks import lengths_of_texts
 
 
 @dataclass(frozen=True)
@@ -59,6 +60,7 @@ class RectangularTube(ByAxis):
     corner_radius: NonNegativeLength = 0.0
 
     def __post_init__(self) -> None:
+        lengths_of_texts(self)
         lengths = {"width": self.width, "depth": self.depth, "thickness": self.thickness}
         problems = not_positive(lengths, "give the outer dimensions, for example 50 mm")
         problems = problems or self._out_of_proportion()

@@ -6,7 +6,19 @@ import math
 from collections.abc import Mapping, Sequence
 
 from crumple.errors import Problem
+from crumple.registry.quantity import texts_to_si
 from crumple.section.section import in_mm
+
+
+def lengths_of_texts(section: object) -> None:
+    """Replace texts with units, such as "50 mm", among the dimensions of a section by lengths [m].
+
+    Raises
+    ------
+    InputError
+        With every text that is no length.
+    """
+    texts_to_si(section, dict.fromkeys(vars(section), "m"))
 
 
 def must_not_be_negative(lengths: Mapping[str, float]) -> list[Problem]:

@@ -43,6 +43,7 @@ from crumple.structure.hinges.shares import (
     AxisShares,
     HingeShares,
     about_axis,
+    joint_lengths,
     member_shares,
     moment_free_ends,
     untwisted,
@@ -64,6 +65,9 @@ STIFF = 0.1
 FIRM = 100.0
 """Capacity of an elastic joint over the largest capacity of its member's hinges: no impact reaches it, and
 tolerances relative to the largest capacity stay small."""
+SAME_PLACE = 1e-2 / 6.0
+"""Distance of joints about two axes that are one, over the length of their member: a hundredth of a segment
+of the six of an elastic member. Its bending about the second axis is wrong by about such a share."""
 
 OWN_HINGES = ("placed hinges", "")
 """Where a structure keeps what `placed_hinges` found."""
@@ -182,19 +186,16 @@ def elastic_joints(
 
     Those of an elastic member yield as its section does; the others have no plastic law.
     """
-    lengths: dict[float, dict[Axis, float]] = defaultdict(dict)
-    for axis, shares in about.items():
-        for station, length in shares.joints if shares.elastic else ():
-            lengths[station][axis] = length
+    lengths = joint_lengths(about, SAME_PLACE * structure.frame_of(member).length)
     found = []
-    for i, (station, by_axis) in enumerate(sorted(lengths.items()), 1):
+    for i, (station, by_axis) in enumerate(lengths, 1):
         # no name of the input has a blank
         name = f"{member} elastic" if len(lengths) == 1 else f"{member} elastic {i}"
         records = {
             axis: _joint_record(structure, member, axis, (station, length), own)
-            for axis, length in by_axis.items()
+            for axis, length in sorted(by_axis.items())
         }
-        first = next(iter(records))
+        first = min(records)
         place = HingePlace(name, member, station, first, None, f"members.{member}")
         components = [HingeComponent(BENDING[axis], record) for axis, record in records.items()]
         coupling = Coupling.ELLIPSOID if structure.members[member].elastic else Coupling.NONE

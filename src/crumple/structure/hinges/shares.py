@@ -138,6 +138,27 @@ def untwisted(structure: StructureParts, member: str) -> float:
     return length - sum(b - a for a, b in spec.rigid_parts(length))
 
 
+def joint_lengths(about: dict[Axis, AxisShares], near: float) -> list[tuple[float, dict[Axis, float]]]:
+    """Stations of joints along a member, with the length that each stands for about its axes [m].
+
+    Joints about two axes that are nearer to each other than `near` are one, at the first: a body between
+    them would have no mass to speak of.
+    """
+    along = sorted(
+        (station, axis, length)
+        for axis, shares in about.items()
+        if shares.elastic
+        for station, length in shares.joints
+    )
+    found: list[tuple[float, dict[Axis, float]]] = []
+    for station, axis, length in along:
+        if found and station - found[-1][0] < near and axis not in found[-1][1]:
+            found[-1][1][axis] = length
+        else:
+            found.append((station, {axis: length}))
+    return found
+
+
 def axes_of(place: HingePlace) -> tuple[Axis, ...]:
     """Bending axes of a hinge."""
     return place.keys.bending or (place.axis,)

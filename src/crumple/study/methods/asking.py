@@ -15,10 +15,10 @@ from crumple.study.methods.optimise import optimise, optimise_several
 from crumple.study.methods.points import blocks, sampled
 from crumple.study.rows import masses_of
 from crumple.study.setting import Setting
-from crumple.study.table import Table
+from crumple.study.table import Table, unwatched
 
 GROUP = 50_000
-"""Points that are given to a model at a time: progress and cancellation are looked at in between."""
+"""Points that are given to a model at a time."""
 TOGETHER = 8
 """Combinations of increasing mass that are asked for at a time."""
 MOST_COMBINATIONS = 20_000
@@ -47,7 +47,7 @@ def asked(setting: Setting, table: Table, progress: Callable[[float], None]) -> 
     study, method = setting.study, setting.study.method
     more: dict[str, Any] = {}
     if method.type == "sobol_indices":
-        more["indices"] = _indices(setting, table)
+        more["indices"] = _indices(setting, table, progress)
     elif method.type == "lightest":
         _lightest(setting, table, progress)
     elif method.gradient:
@@ -56,9 +56,7 @@ def asked(setting: Setting, table: Table, progress: Callable[[float], None]) -> 
         _optimised(setting, table, progress)
     else:
         points = sampled(setting.axes, method, setting.folder)
-        for first in range(0, len(points), GROUP):
-            table.solve(points[first : first + GROUP])
-            progress(min((first + GROUP) / len(points), 1.0))
+        table.solve_in_groups(points, GROUP, progress)
     return answer_of(study, table, setting.limits, setting.units, **more)
 
 
@@ -68,8 +66,7 @@ def _optimised(setting: Setting, table: Table, progress: Callable[[float], None]
 
     def judged(points: list[Any]) -> tuple[Floats, Floats]:
         first = len(table.points)
-        table.solve(points)
-        progress(min(len(table.points) / method.rows, 1.0))
+        table.solve(points, lambda share: progress(min((first + share * len(points)) / method.rows, 1.0)))
         return judged_rows(study, table, setting.limits, first)
 
     def alone(points: list[Any]) -> tuple[Floats, Floats]:
@@ -106,7 +103,7 @@ def _lightest(setting: Setting, table: Table, progress: Callable[[float], None])
             return
 
 
-def _indices(setting: Setting, table: Table) -> dict[str, Any] | str:
+def _indices(setting: Setting, table: Table, progress: Callable[[float], None]) -> dict[str, Any] | str:
     """Sobol' indices; failed blocks are dropped and replaced by further ones of the sequence."""
     method, size = setting.study.method, len(setting.axes)
     count = method.rows
@@ -116,7 +113,9 @@ def _indices(setting: Setting, table: Table) -> dict[str, Any] | str:
 
     def ask(first: int, number: int) -> Integers:
         a, b, mixed = blocks(setting.axes, first, number, method.seed)
-        table.solve([*a, *b, *(point for one in mixed for point in one)])
+        table.solve(
+            [*a, *b, *(point for one in mixed for point in one)], progress if first == 0 else unwatched
+        )
         return (
             np.arange(len(table.points) - number * (size + 2), len(table.points))
             .reshape(-1, number)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from tests.support.structures import STEEL, TUBE, cantilever, constant_law
 
-from crumple.errors import InputError, Status
+from crumple.errors import CancelledError, InputError, Status
 from crumple.multibody import Run, sensitivities, solve_variants
 from crumple.multibody.planar.case import planar_case
 from crumple.structure import MultibodySettings, Outputs, Structure, changed
@@ -193,3 +193,21 @@ def test_values_that_are_no_numbers_are_refused(tube):
 def test_one_parameter_may_stand_by_itself(tube):
     (name,) = sensitivities(tube, RUN, "masses.payload.mass")[QUANTITY]
     assert name == "masses.payload.mass"
+
+
+def test_variants_can_be_stopped_and_followed_while_they_are_prepared(tube, monkeypatch):
+    made, shares = [], []
+
+    def counted(structure, duration):
+        made.append(structure)
+        return planar_case(structure, duration)
+
+    monkeypatch.setattr("crumple.multibody.variants.batch.planar_case", counted)
+    walls = {"sections.tube.thickness": np.linspace(0.0019, 0.0021, 10)}
+    solve_variants(tube, RUN, walls, progress=shares.append)
+    assert shares[:10] == pytest.approx(np.linspace(0.0, 0.45, 10))
+    assert shares == sorted(shares)
+    made.clear()
+    with pytest.raises(CancelledError, match="while the variants were prepared"):
+        solve_variants(tube, RUN, walls, cancel=lambda: len(made) >= 4)
+    assert len(made) == 4

@@ -5,6 +5,7 @@ import sys
 import numpy as np
 import pytest
 
+import crumple
 from crumple.errors import InputError
 from crumple.section import CircularTube, RectangularTube, Section
 
@@ -110,3 +111,34 @@ def test_import_stays_light():
     code = f"import sys, crumple.section, crumple.hinge; print(sorted({heavy} & set(sys.modules)))"
     answer = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert answer.stdout.strip() == "[]"
+
+
+@pytest.mark.parametrize(
+    ("kind", "sizes"),
+    [
+        (
+            crumple.RectangularTube,
+            {"width": 0.05, "depth": 0.025, "thickness": 0.002, "corner_radius": 0.004},
+        ),
+        (crumple.CircularTube, {"diameter": 0.05, "thickness": 0.002}),
+        (crumple.square_tube, {"side": 0.05, "thickness": 0.002}),
+        (crumple.MultiCellTube, {"width": 0.06, "depth": 0.04, "thickness": 0.002, "columns": 2}),
+        (crumple.Channel, {"width": 0.05, "depth": 0.03, "thickness": 0.002, "lip": 0.01}),
+        (crumple.Angle, {"width": 0.05, "depth": 0.03, "thickness": 0.002}),
+        (crumple.Hat, {"width": 0.05, "depth": 0.03, "thickness": 0.002, "flange": 0.02}),
+        (crumple.ClosedHat, {"width": 0.05, "depth": 0.03, "thickness": 0.002, "flange": 0.02}),
+        (crumple.Wall, {"points": ((0.0, 0.0), (0.05, 0.0)), "thickness": 0.002}),
+    ],
+)
+def test_dimensions_are_numbers_or_texts_with_units(kind, sizes):
+    def text(size):
+        if isinstance(size, tuple):
+            return tuple(map(text, size))
+        return size if isinstance(size, int) else f"{1e3 * size:.6g} mm"
+
+    assert kind(**{name: text(size) for name, size in sizes.items()}) == kind(**sizes)
+
+
+def test_texts_that_are_no_lengths_are_refused_by_name():
+    with pytest.raises(InputError, match="depth: MPa is the unit of a stress"):
+        crumple.RectangularTube(width="50 mm", depth="25 MPa", thickness="2 mm")

@@ -9,6 +9,8 @@ from crumple.errors import InputError
 from crumple.hinge import Coupling, Form, Freedom
 from crumple.section import plastic_interaction
 from crumple.structure import Structure, placed_hinges
+from crumple.structure.hinges.hinges import elastic_joints
+from crumple.structure.hinges.shares import AxisShares
 
 PARTS = {
     "materials": {
@@ -166,3 +168,29 @@ def test_the_interaction_of_a_round_tube_without_slip_is_the_ellipsoid():
         assert placed("round", axes=axes).spatial.surface.coupling is Coupling.ELLIPSOID
     assert placed("round", axes=["y", "z"], axial=True).spatial.surface.coupling is Coupling.SECTION
     assert placed("square", axes=["y", "z"]).spatial.surface.coupling is Coupling.SECTION
+
+
+def test_elastic_joints_about_two_axes_at_one_place_are_one_joint():
+    # about y a joint is at 0.3 L of six segments, about z at 0.30000000000000004 L of twenty-four places
+    metal = {"section": "square", "material": "steel", "elastic": 6}
+    nodes = {"root": [0, 0, 0], "middle": ["360 mm", 0, 0], "tip": ["600 mm", 0, 0]}
+    members = {"first": {"nodes": ["root", "middle"], **metal}, "last": {"nodes": ["middle", "tip"], **metal}}
+    thrown = [{"translation": [0, 0, "-6 m/s"], "nodes": ["tip"]}]
+    parts = PARTS | {"nodes": nodes, "initial_velocity": thrown}
+    whole = Structure(**parts, members=members, hinges={"axes": ["y", "z"]})
+    joints = [hinge for hinge in placed_hinges(whole) if hinge.member == "first" and not hinge.plastic]
+    assert np.diff([joint.station for joint in joints]).min() > 0.05
+    assert [joint.spatial.freedoms for joint in joints if joint.spatial] == [(Freedom.Y, Freedom.Z)]
+
+
+@pytest.mark.parametrize(("apart", "number"), [(1.2e-16, 1), (1e-3, 1), (2e-2, 2)])
+def test_elastic_joints_about_two_axes_that_are_near_are_one_joint(apart, number):
+    whole = built()
+    fold = placed_hinges(whole)[0]
+    about = {
+        axis: AxisShares({}, ((station, 0.2),), elastic=True, rigid=False)
+        for axis, station in (("y", 0.7), ("z", 0.7 - apart))
+    }
+    joints = elastic_joints(whole, "bar", [fold], about)
+    assert len(joints) == number
+    assert {joint.axis for joint in joints} == ({"y"} if number == 1 else {"y", "z"})
