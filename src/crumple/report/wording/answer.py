@@ -40,7 +40,7 @@ def _absorbed(result: Result) -> str:
     most = result.hinges[name]
     if len(result.hinges) == 1 or not most.energy > 0.0:
         return f"The structure absorbed {total}."
-    folded = sum(part.energy for part in (*result.hinges.values(), *result.dents))
+    folded = sum(hinge.energy for hinge in result.hinges.values()) + sum(dent.energy for dent in result.dents)
     where = f"{len(result.hinges)} hinges{' and dents' if result.dents else ''}"
     share = f"{percent(most.energy / folded)} of it in {name}"
     if abs(absorbed - folded) <= ROUNDING * absorbed:
