@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from crumple.analysis.distribution import Value, number
-from crumple.errors import InputError, Problem
+from crumple.errors import InputError, Problem, Status
 from crumple.result import Result
 from crumple.result.channels import unit_of
 from crumple.result.scatter import Judged
@@ -21,6 +21,10 @@ from crumple.structure.schema.spec import Spec
 
 SUMMARISED = ("rotation", "moment")
 """Channels of hinges whose largest value the stepper keeps."""
+SAME = 1e-9
+"""Part of a time by which rounding may put it after the end of a run."""
+EARLY = frozenset(Status) - {Status.COMPLETE, Status.RESIDUAL_EXCEEDED, Status.IMPOSSIBLE}
+"""How runs end that did not reach their end."""
 
 
 class Criterion(Spec):
@@ -86,9 +90,9 @@ def measure(result: Result, wanted: Measured) -> float:
 
 
 def criteria_in_si(
-    criteria: Mapping[str, Criterion], structure: StructureParts, outputs: Outputs
+    criteria: Mapping[str, Criterion], structure: StructureParts, outputs: Outputs, duration: float
 ) -> tuple[dict[str, Criterion], list[Problem]]:
-    """Criteria with all quantities in SI, and mistakes: channels that no run has, and other dimensions.
+    """Criteria with all quantities in SI, and mistakes: unknown channels, other dimensions, late times.
 
     Parameters
     ----------
@@ -96,6 +100,8 @@ def criteria_in_si(
         As written, by name.
     structure, outputs
         Of the file; they name the channels.
+    duration
+        Of the run [s].
     """
     found, problems = {}, []
     for name, given in criteria.items():
@@ -103,9 +109,18 @@ def criteria_in_si(
         try:
             unit = _unit(given.channel, structure, outputs, where)
             found[name] = _in_si(given, unit, where)
+            problems += late(float(found[name].time or 0.0), duration, f"{where}.time")
         except InputError as error:
             problems += error.problems
     return found, problems
+
+
+def late(time: float, duration: float, where: str) -> list[Problem]:
+    """The problem of a time at which a number is wanted and that is after the end of the run [s]."""
+    if time <= duration * (1.0 + SAME):
+        return []
+    what, todo = "this time is after the end of the run", "correct the time or the duration"
+    return [Problem(what, f"{time:g} s", f"at most {duration:g} s, the duration", todo, where)]
 
 
 def limits_of(criteria: Mapping[str, Criterion], result: Result) -> list[tuple[Measured, float, float]]:
@@ -130,13 +145,18 @@ def limits_of(criteria: Mapping[str, Criterion], result: Result) -> list[tuple[M
 
 
 def with_criteria(result: Result, criteria: Mapping[str, Criterion]) -> Result:
-    """A result with its criteria judged; one whose channel this solver does not give is a warning."""
+    """A result with its criteria judged; one whose channel this solver does not give is a warning.
+
+    Of a run that ended early only violations of a largest value and values at a time that it reached count.
+    """
     if not criteria or not result.time.size:
         return result
     judged = []
     for one, low, high in limits_of(criteria, result):
         value, unit = measure(result, one), result.channels[one.channel].unit
-        kept = bool(low <= value <= high) if math.isfinite(value) else None
+        if _after(result, one):
+            value = math.nan
+        kept = _kept(result, one, value, (low, high))
         ends = (low if math.isfinite(low) else None, high if math.isfinite(high) else None)
         judged.append(Judged(one.name, one.channel, one.take, unit, *ends, value, kept))
     missing = tuple(
@@ -145,6 +165,25 @@ def with_criteria(result: Result, criteria: Mapping[str, Criterion]) -> Result:
         if given.channel not in result.channels
     )
     return replace(result, criteria=tuple(judged), warnings=(*result.warnings, *missing))
+
+
+def _after(result: Result, one: Measured) -> bool:
+    """Whether a number is wanted at a time that the run did not reach."""
+    return one.take == "at" and one.time > float(result.time[-1]) * (1.0 + SAME)
+
+
+def _kept(result: Result, one: Measured, value: float, limits: tuple[float, float]) -> bool | None:
+    """Whether a value is within its limits; None if it has none, or could still change in a run cut short.
+
+    A largest value only grows: one that is beyond a limit stays beyond it.
+    """
+    low, high = limits
+    if not math.isfinite(value):
+        return None
+    if result.status in EARLY and one.take != "at":
+        beyond = one.take == "max" and (value > max(high, 0.0) or value < min(low, 0.0))
+        return False if beyond else None
+    return bool(low <= value <= high)
 
 
 def _in_si(given: Criterion, unit: str, where: str, *, bare: bool = False) -> Criterion:

@@ -208,7 +208,7 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
     scatter: Uncertainty | None = None
     criteria: dict[str, Criterion] = {}
     if whole and not cross:
-        criteria, cross = criteria_in_si(whole.criteria, bending, whole.outputs)
+        criteria, cross = criteria_in_si(whole.criteria, bending, whole.outputs, duration)
         sound = Structure.of_sound_parts(whole)
         bending = with_elastic_members(sound, whole.analysis.multibody, duration)
         scatter, wrong = in_si(whole.uncertainty, data, bending)

@@ -10,6 +10,7 @@ from crumple.analysis.analysis import Analysis
 from crumple.analysis.canonical import canonical, hash_of
 from crumple.analysis.criteria import with_criteria
 from crumple.analysis.filters import with_filters
+from crumple.analysis.unmet import with_unmet
 from crumple.errors import InputError, Problem, Status
 from crumple.structure.schema.spec import raise_all
 from crumple.units import format_quantity
@@ -161,7 +162,8 @@ def solved_alone(
 
         run = replace(run_of(analysis), checks=checks)
         solved = solve_multibody(analysis.structure, run, progress, cancel)
-    return with_criteria(with_filters(solved, analysis.outputs, analysis.output_interval), analysis.criteria)
+    told = with_unmet(solved, analysis.stages)
+    return with_criteria(with_filters(told, analysis.outputs, analysis.output_interval), analysis.criteria)
 
 
 def _refuse_unsolved(analysis: Analysis, fidelity: str) -> None:

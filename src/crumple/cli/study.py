@@ -59,6 +59,11 @@ def study(
             _target(file, out, count, executor, resume=resume)
         return
     loaded = LoadedStudy(file)
+    if parquet:
+        from crumple.study.table import refuse_without_parquet
+
+        # before rows are solved
+        refuse_without_parquet()
     begun = results_folder(out, file), _executor(scheduler, limit, workers)
     with begun[0] as folder, _resumable(file, folder), begun[1] as (executor, count):
         if not resume:
@@ -185,6 +190,7 @@ def _target(file: Path, out: str | None, workers: int, executor: Executor | None
 
 def _show(answer: Answer) -> None:
     """Print what the rows say."""
+    from crumple.study.answer import remarks
     from crumple.units import format_quantity
 
     def text(value: float, name: str) -> str:
@@ -202,6 +208,8 @@ def _show(answer: Answer) -> None:
             low, high = one["interval"]
             share = f"{one['probability']:.4g} (95 % interval {low:.4g} to {high:.4g})"
             typer.echo(f"probability that {one['response']} violates its limit, within this model: {share}")
+    for remark in remarks(answer):
+        typer.echo(remark)
     _show_indices(answer.indices)
     if answer.best is not None:
         values = ", ".join(f"{key} {_plain(value)}" for key, value in answer.best["variables"].items())

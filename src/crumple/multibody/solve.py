@@ -26,7 +26,7 @@ from crumple.multibody.answer.histories import (
 )
 from crumple.multibody.answer.shapes import refuse_pictures, states_of
 from crumple.multibody.answer.solved import HingeHistory, Poll, Solved, Solver
-from crumple.multibody.checks import trust
+from crumple.multibody.checks import crushing, overloaded, trust
 from crumple.multibody.checks.collapse import changed_capacities, collapse_log, not_unique, scaled_hinge
 from crumple.multibody.checks.overlap import obstacle_overlap_warnings
 from crumple.multibody.checks.physics import physics_cautions
@@ -126,7 +126,16 @@ def _with_rigid_bars(
     rigid = replace(run, settings=run.settings.model_copy(update={"members": "rigid"}))
     result = solve_multibody(structure, rigid, progress, cancel)
     why = f"Members are rigid bars here: with members that bend the run ended early ({solved.reason})."
-    return replace(result, warnings=(why, *result.warnings))
+    cautions = tuple(replace(one, text=_without_bending(one.text)) for one in result.cautions)
+    warnings = (why, *map(_without_bending, result.warnings))
+    return replace(result, cautions=cautions, warnings=warnings)
+
+
+def _without_bending(text: str) -> str:
+    """A sentence without the advice to let members bend, which was tried."""
+    for advice in (trust.BEND, overloaded.BEND, crushing.BEND):
+        text = text.replace(advice, "")
+    return text
 
 
 def _balanced(solver: Solver, solved: Solved, run: Run, poll: Poll) -> tuple[Solved, float]:

@@ -70,6 +70,7 @@ def write_study_page(
         total=data["total"],
         complete=data["complete"],
         shown=len(data["rows"]),
+        remarks=data["remarks"],
         shapes=len(scenes),
         data=Markup(_json({**data, "alike": alike})),
         stored=Markup("{" + stored + "}"),

@@ -23,9 +23,10 @@ class Judged:
     at_least, at_most
         Limits; None without one.
     value
-        Of the run; NaN if it has none.
+        Of the run, as far as it came; NaN if it has none.
     kept
-        Whether the value is within the limits; None if there is no value.
+        Whether the value is within the limits; None if there is no value, or the run ended early and does
+        not decide it.
     """
 
     name: str

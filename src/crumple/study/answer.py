@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -19,9 +20,12 @@ from crumple.study.formula import Formula
 from crumple.study.front import nondominated
 from crumple.study.study_file import Study
 from crumple.study.table import Table
+from crumple.units import format_quantity
 
 ROUNDING = 1e-12
 """Largest difference of values that count as equal, as a share of the largest of them."""
+
+_NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 Limits = Sequence[tuple[str, float, float]]
 """Of constraints: response, lower limit and upper limit."""
@@ -37,8 +41,9 @@ class Answer:
         Number of rows, and of those with usable values.
     solved
         Points that were solved in this process; the others were known or equal.
-    failures
-        Number of rows by status.
+    failures, reasons
+        Number of rows by status; by status the reason of its first row, and the number of rows that have
+        the same but for numbers.
     units
         Of responses.
     responses
@@ -47,6 +52,9 @@ class Answer:
         Of each constraint (Monte Carlo): share of the complete rows that violate it, and its interval.
     best
         Row with the best objective among those that meet all constraints; None without one.
+    nearest
+        With objectives and no row that meets all constraints: that with the smallest sum of excesses, each
+        over its limit; None without one.
     indices
         Sobol' indices of each response, or why there are none.
     verification
@@ -70,6 +78,8 @@ class Answer:
     verification: Mapping[str, Any] | None = None
     front: Sequence[Mapping[str, Any]] = ()
     limits: Limits = ()
+    reasons: Mapping[str, tuple[str, int]] = field(default_factory=dict)
+    nearest: Mapping[str, Any] | None = None
 
     def plain(self) -> dict[str, Any]:
         """Content of study.json; without `solved`, which a resumed study has otherwise."""
@@ -77,14 +87,40 @@ class Answer:
             "rows": self.rows,
             "complete": self.complete,
             "failures": dict(self.failures),
+            "reasons": {status: list(reason) for status, reason in self.reasons.items()},
             "units": dict(self.units),
             "responses": {name: dict(values) for name, values in self.responses.items()},
             "probabilities": list(self.probabilities),
             "best": self.best,
+            "nearest": self.nearest,
             "indices": self.indices,
             "front": list(self.front),
             "verification": self.verification,
         }
+
+
+def remarks(answer: Answer) -> list[str]:
+    """Sentences for console and page: why rows failed, what lacks them, and that no row is feasible."""
+    found = [f"first of {count} alike: {reason}" for reason, count in answer.reasons.values()]
+    lost = answer.rows - answer.complete
+    if answer.probabilities and lost:
+        found.append(
+            f"caution: {lost} of {answer.rows} rows have no result and are left out of probabilities"
+        )
+    if answer.nearest is not None:
+        near = answer.nearest
+        values = [f"{name} {_plain(value)}" for name, value in near["variables"].items()]
+        told = [
+            f"{name} {format_quantity(value, answer.units[name])}"
+            for name, value in near["responses"].items()
+        ]
+        nearest = f"the nearest is row {near['row']}: {', '.join(values)} (SI units); {', '.join(told)}"
+        found.append(f"no row of {answer.rows} keeps all constraints; {nearest}")
+    return found
+
+
+def _plain(value: float | str) -> str:
+    return value if isinstance(value, str) else f"{value:.6g}"
 
 
 def write_front(answer: Answer, path: Path) -> None:
@@ -194,6 +230,8 @@ def answer_of(
         indices or {},
         front=[_shown_row(study, table, columns, row) for row in front_of(study, table, limits)],
         limits=limits,
+        reasons=_reasons(table),
+        nearest=_nearest(study, table, limits, columns),
     )
 
 
@@ -240,6 +278,31 @@ def _best(study: Study, table: Table, limits: Limits, columns: Mapping[str, Floa
     if not (violation == 0.0).any():
         return None
     return _shown_row(study, table, columns, int(np.argmin(np.where(violation == 0.0, objective, np.inf))))
+
+
+def _nearest(
+    study: Study, table: Table, limits: Limits, columns: Mapping[str, Floats]
+) -> dict[str, Any] | None:
+    if not study.goals or not table.rows:
+        return None
+    violation = violation_of(study, table, limits)[1]
+    if (violation == 0.0).any() or not np.isfinite(violation).any():
+        return None
+    return _shown_row(study, table, columns, int(np.argmin(violation)))
+
+
+def _reasons(table: Table) -> dict[str, tuple[str, int]]:
+    """By status the reason of its first failed row that has one, and how many have it but for numbers."""
+    failed = [table.rows[i] for i in np.flatnonzero(~table.ok).tolist()]
+    first: dict[str, str] = {}
+    for row in failed:
+        if row.reason:
+            first.setdefault(row.status, row.reason)
+    alike = Counter(_NUMBER.sub("#", row.reason) for row in failed)
+    return {
+        status: ("; ".join(map(str.strip, reason.splitlines())), alike[_NUMBER.sub("#", reason)])
+        for status, reason in first.items()
+    }
 
 
 def _shown_row(study: Study, table: Table, columns: Mapping[str, Floats], row: int) -> dict[str, Any]:

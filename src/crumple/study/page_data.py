@@ -11,7 +11,7 @@ import numpy as np
 from crumple.numeric.arrays import Floats, Integers
 from crumple.numeric.binomial import clopper_pearson
 from crumple.numeric.ranking import largest_first
-from crumple.study.answer import Answer, columns_of, is_constant, judged_rows
+from crumple.study.answer import Answer, columns_of, is_constant, judged_rows, remarks
 from crumple.study.space import Axis
 from crumple.study.study_file import LoadedStudy, Study
 from crumple.study.table import Table
@@ -44,7 +44,7 @@ def page_data(study: LoadedStudy, table: Table, answer: Answer) -> dict[str, Any
     dict
         ``columns``: name, unit, kind and values of variables and responses at the rows that are shown, in the
         units of the input; ``rows``: their numbers; ``status``; ``limits``, ``goals``, ``front``, ``best``,
-        ``effects`` and ``convergence`` as the page's script draws them.
+        ``remarks``, ``effects`` and ``convergence`` as the page's script draws them.
     """
     own = study.study
     columns, axes = columns_of(own, table), {axis.name: axis for axis in table.axes}
@@ -63,6 +63,7 @@ def page_data(study: LoadedStudy, table: Table, answer: Answer) -> dict[str, Any
         "goals": [{"name": one.response, "sign": one.sign} for one in own.goals],
         "front": [int(one["row"]) for one in answer.front],
         "best": None if answer.best is None else int(answer.best["row"]),
+        "remarks": remarks(answer),
         "effects": _effects(own, table, columns, units),
         "convergence": _convergence(own, table, answer, columns, units),
     }

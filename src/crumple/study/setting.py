@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from crumple.analysis import Analysis, input_hash, solve
-from crumple.analysis.criteria import Measured
+from crumple.analysis.criteria import Measured, late
 from crumple.analysis.distribution import number
 from crumple.errors import InputError, Problem
 from crumple.structure.schema.problems import one_of, suggestion
@@ -104,6 +104,10 @@ def setting_for(
         for name, response in study.responses.items()
         if not response.formula
     ]
+    end = min((one.duration for one in (base, *others) if one is not None), default=np.inf)
+    problems = [p for one in measured for p in late(one.time, end, f"responses.{one.name}.time")]
+    if problems:
+        raise InputError(problems)
     limits = []
     for i, limit in enumerate(study.constraints):
         unit, where = units[limit.response], f"constraints.{i}"

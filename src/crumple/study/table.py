@@ -9,6 +9,7 @@ import sqlite3
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from importlib import import_module
 from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -263,12 +264,24 @@ class Table:
         InputError
             If pandas or pyarrow is not installed.
         """
-        frame = self.to_pandas()
-        try:
-            frame.to_parquet(path, engine="pyarrow")
-        except ImportError:
-            todo = "install it: python -m pip install pyarrow; or read study.csv"
-            raise InputError(Problem("pyarrow is not installed", todo=todo)) from None
+        refuse_without_parquet()
+        self.to_pandas().to_parquet(path, engine="pyarrow")
+
+
+def refuse_without_parquet() -> None:
+    """Refuse to write Parquet files where pandas or pyarrow is not installed.
+
+    Raises
+    ------
+    InputError
+        With the command that installs it.
+    """
+    imported_pandas()
+    try:
+        import_module("pyarrow")
+    except ImportError:
+        todo = "install it: python -m pip install pyarrow; or read study.csv"
+        raise InputError(Problem("pyarrow is not installed", todo=todo)) from None
 
 
 def _part_of(progress: Progress, begun: float, size: float) -> Progress:

@@ -54,6 +54,26 @@ def test_the_result_has_its_provenance():
     assert result.title == analysis.title
 
 
+def test_a_stage_that_no_condition_ended_is_a_warning():
+    ram = """
+obstacles:
+  ram: {type: plane, point: [0 m, 0 m, 5 m], normal: [0, 0, -1], velocity: [0 m/s, 0 m/s, -1 m/s]}
+"""
+
+    def warned(until):
+        stage = f"stages: [{{name: push, duration: 100 ms, until: [{until}]}}]"
+        result = solve(loads(TEXT.replace("duration: 100 ms", stage) + ram))
+        assert result.status.ok
+        return [warning for warning in result.warnings if "ended by its duration" in warning]
+
+    assert warned("{energy: 80 kJ}, {force: 500 kN, of: ram}, {displacement: 400 mm, of: ram}") == [
+        "Stage push ended by its duration: energy 80 kJ was not reached (0 J at most) and "
+        "force of ram 500 kN was not reached (0 N at most) and "
+        "displacement of ram 400 mm was not reached (100 mm at most)."
+    ]
+    assert warned("{displacement: 90 mm, of: ram}, {energy: 80 kJ}") == []
+
+
 def test_unknown_solvers_and_no_threads_are_refused():
     analysis = loads(TEXT)
     with pytest.raises(InputError, match="unknown fidelity"):

@@ -318,3 +318,13 @@ def test_parquet_without_pyarrow(study, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     with pytest.raises(InputError, match="pyarrow is not installed"):
         study[1].to_parquet(tmp_path / "study.parquet")
+
+
+def test_the_command_refuses_parquet_without_pyarrow_before_it_solves(run_command, tmp_path, monkeypatch):
+    pytest.importorskip("pandas")
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    file, out = written(tmp_path, "{type: sobol, rows: 8}"), tmp_path / "out"
+    code, _, err = run_command("study", file, "--out", out, "--parquet")
+    assert code != 0
+    assert "pyarrow is not installed" in err
+    assert not (out / "study.sqlite").exists()

@@ -10,9 +10,11 @@ import pytest
 from scipy.special import ndtri
 
 from crumple.analysis import check, load, solve
+from crumple.analysis.criteria import with_criteria
 from crumple.analysis.solve import run_of
 from crumple.errors import InputError, Status
 from crumple.multibody import solve_variants
+from crumple.report.wording.scatter import criterion_sentences
 from crumple.result import read, write
 from crumple.structure import changed
 from crumple.study import with_uncertainty
@@ -141,12 +143,42 @@ def test_mistakes_have_lines(tmp_path, change, what):
         ("{channel: hinge.root.rotation, at_most: 25 mm}", "25 mm"),
         ("{channel: hinge.root.rotation}", "limit is missing"),
         ("{channel: hinge.root.rotation, take: at, at_most: 25 deg}", "belong together"),
+        ("{channel: hinge.root.rotation, take: at, time: 5 s, at_most: 25 deg}", "after the end of the run"),
     ],
 )
 def test_check_refuses_criteria_that_cannot_be_judged(tmp_path, criterion, what):
     (problem,) = check(written(tmp_path, f"  turn: {criterion}\n"))
     assert what in str(problem)
     assert problem.line > TUBE.count("\n")
+
+
+def test_a_run_that_ended_early_decides_only_what_cannot_change(tmp_path):
+    turn = "channel: hinge.root.rotation"
+    criteria = f"""
+  most: {{{turn}, at_most: 33 deg}}
+  beyond: {{{turn}, at_most: 1 deg}}
+  least: {{{turn}, at_least: 40 deg}}
+  last: {{{turn}, take: final, at_most: 1 deg}}
+  before: {{{turn}, take: at, time: 1 ms, at_least: -90 deg}}
+  later: {{{turn}, take: at, time: 50 ms, at_most: 1 deg}}
+"""
+    analysis = load(written(tmp_path, criteria, variables=""))
+    whole = solve(analysis)
+    rows = int(np.searchsorted(whole.time, 0.03))
+    channels = {
+        name: replace(channel, values=channel.values[:rows]) for name, channel in whole.channels.items()
+    }
+    cut = replace(whole, status=Status.CANCELLED, time=whole.time[:rows], channels=channels)
+    judged = with_criteria(cut, analysis.criteria)
+    assert [one.kept for one in judged.criteria] == [None, False, None, None, True, None]
+    said = list(criterion_sentences(judged))
+    assert said[0].startswith(
+        "Criterion most not decided: the run ended early, largest hinge.root.rotation is"
+    )
+    assert "ended before" in said[5]
+    # a stage that `until` ends early completes, but not the time of the criterion
+    ended = with_criteria(replace(cut, status=Status.COMPLETE), analysis.criteria)
+    assert [one.kept for one in ended.criteria] == [True, False, False, True, True, None]
 
 
 def test_files_and_page(tmp_path, run_command):

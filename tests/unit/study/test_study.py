@@ -160,6 +160,31 @@ def test_long_studies_of_walls_are_shared_by_processes(tmp_path, monkeypatch):
     assert rows_of(tmp_path / "one") == rows_of(tmp_path / "two")
 
 
+def test_no_feasible_row_names_the_nearest(tmp_path, run_command):
+    more = "  m: {mass: true}\nconstraints: [{response: r, at_most: 0.1 deg}]\nobjective: {minimise: m}"
+    file, out = written(tmp_path, "{type: optimise, rows: 16}", WALL, f"{ROTATION}\n{more}"), tmp_path / "out"
+    said = run_command("study", file, "--out", out, "--shapes", 0)[1]
+    assert "no row of 16 keeps all constraints; the nearest is row" in said
+    answer = json.loads((out / "study.json").read_text())
+    assert answer["best"] is None
+    thickest = max(float(line.split(",")[1]) for line in rows_of(out).decode().splitlines()[1:])
+    assert answer["nearest"]["variables"]["v"] == thickest
+    assert "No row of 16 keeps all constraints" in (out / "study.html").read_text()
+
+
+def test_rows_without_a_result_are_counted_beside_the_probability(tmp_path, run_command):
+    wall = "{path: sections.tube.thickness, low: 1.5 mm, high: 40 mm}"
+    more = "constraints: [{response: r, at_most: 40 deg}]"
+    file, out = written(tmp_path, "{type: monte_carlo, rows: 16}", wall, ROTATION, more), tmp_path / "out"
+    said = run_command("study", file, "--out", out, "--shapes", 0)[1]
+    answer = json.loads((out / "study.json").read_text())
+    lost = 16 - answer["complete"]
+    assert 0 < lost < 16
+    assert f"first of {lost} alike: " in said
+    assert f"caution: {lost} of 16 rows have no result and are left out of probabilities" in said
+    assert "are left out of probabilities" in (out / "study.html").read_text()
+
+
 def test_slow_rows_are_kept_while_others_are_in_work(tmp_path, monkeypatch):
     """A row that is known is in the file before the next one is."""
     monkeypatch.setattr(study_table, "LATEST", 0.0)

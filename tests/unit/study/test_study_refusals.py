@@ -37,6 +37,7 @@ SIZES = "{path: sections.tube.thickness, values: [%g mm, %g mm]}"
         (GRID, SPEED, ROTATION, "", "the number of grid values is missing"),
         (SAMPLE, SPEED, "{mass: true, formula: v}", "", "a response is one of three things"),
         (SAMPLE, SPEED, AT.replace("at,", "max,"), "", "'take: at' and 'time' belong together"),
+        (SAMPLE, SPEED, AT.replace("50 ms", "5 s"), "", "after the end of the run"),
         (SAMPLE, SPEED, ROTATION, "constraints: [{response: q, at_most: 1}]", "there is no such response"),
         (SAMPLE, SPEED, ROTATION, "objective: {minimise: r, maximise: r}", "an objective has one goal"),
         (SAMPLE, SPEED, ROTATION, "objective: {minimise: q}", "there is no such response"),

@@ -11,6 +11,7 @@ import numpy as np
 from crumple.comparison.comparison import Comparison
 from crumple.comparison.measure.energy import energy_put_in
 from crumple.comparison.measure.metrics import OPENED_AT, percent
+from crumple.shell.checks.folds import FEW
 from crumple.text.names import listed
 
 LEAST_WORK = 0.05
@@ -31,11 +32,25 @@ _FAILED = re.compile(r"weld\.(.+)\.failed")
 
 def run_sentences(comparison: Comparison) -> Iterator[tuple[str, bool]]:
     """Sentences, and whether each is a caution."""
+    yield from _coarse(comparison)
     yield from _outside(comparison)
     yield from _welds(comparison)
     yield from _crushed(comparison)
     yield from _still_turning(comparison)
     yield from _warnings(comparison)
+
+
+def coarse_mesh(comparison: Comparison) -> str:
+    """What the reference's own warning says of a mesh that is too coarse to fold; empty without one."""
+    found = [warning for warning in comparison.reference.result.warnings if warning.startswith(FEW)]
+    return found[0].partition(". ")[0].removeprefix(FEW) if found else ""
+
+
+def _coarse(comparison: Comparison) -> Iterator[tuple[str, bool]]:
+    """The reference's own warning of its mesh."""
+    for warning in comparison.reference.result.warnings:
+        if warning.startswith(FEW):
+            yield f"Of the {comparison.reference.name} run: {warning}", True
 
 
 def outside_folds(comparison: Comparison) -> float:

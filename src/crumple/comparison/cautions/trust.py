@@ -10,7 +10,7 @@ import numpy as np
 
 from crumple.comparison.cautions.fold_trust import across_joint, fold_sentences, largest_turn
 from crumple.comparison.cautions.mode_followed import mode_sentences
-from crumple.comparison.cautions.run_cautions import run_sentences
+from crumple.comparison.cautions.run_cautions import coarse_mesh, run_sentences
 from crumple.comparison.cautions.shortfall import shortfall
 from crumple.comparison.cautions.verdict import SMALL, agreement, verdict
 from crumple.comparison.comparison import Comparison, Source, Trust
@@ -66,6 +66,8 @@ def trust_of(comparison: Comparison, structure: Structure) -> Trust:
         cautions = [*(_ended(s) for s in failed), *cautions]
         if not all(s.result.status.ok for s in (comparison.candidate, comparison.reference)):
             level, headline = "bad", _unfinished(comparison)
+    if coarse := coarse_mesh(comparison):
+        headline += f" The mesh of the {comparison.reference.name} run is too coarse to judge: {coarse}."
     return Trust(level, headline, tuple(facts), tuple(cautions))
 
 

@@ -27,6 +27,12 @@ from crumple.structure.hinges.asked import automatic_of
 ALONG = np.cos(np.radians(30.0))
 """Cosine of the angle between a blow and a member's axis below which it counts as bending, not crushing."""
 
+BEND = (
+    "or 'members: elastic' in analysis.multibody, with which automatic hinges shorten where an impact "
+    "would stop the structure, "
+)
+"""What else helps rigid members with automatic hinges."""
+
 
 def crushing_cautions(structure: Structure, solved: Solved, *, struck: bool) -> Iterator[Caution]:
     """A caution for every member that would fold along its axis, and cannot in this model.
@@ -68,10 +74,7 @@ def _bending(structure: Structure, members: Iterable[str]) -> str:
     """What else helps rigid members with automatic hinges."""
     if any(structure.members[name].elastic or automatic_of(structure, name) is None for name in members):
         return ""
-    return (
-        "or 'members: elastic' in analysis.multibody, with which automatic hinges shorten where an impact "
-        "would stop the structure, "
-    )
+    return BEND
 
 
 def _at_hinges(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:

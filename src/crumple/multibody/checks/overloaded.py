@@ -30,6 +30,8 @@ from crumple.structure.hinges.spatial_hinges import interaction_fit_of
 
 USED = 1.1
 """Use of a section's capacity above which a caution is given: the fit of the interaction is up to 6 % off."""
+BEND = ", or let members bend with analysis.multibody.members: elastic"
+"""What else helps rigid bars that carry too much."""
 AXES: tuple[Axis, ...] = ("y", "z")
 
 
@@ -59,8 +61,7 @@ def overloaded_sections(structure: Structure, solved: Solved) -> Iterator[Cautio
         text = (
             f"{named('Member', list(found))} {'is' if one else 'are'} loaded up to "
             f"{max(found.values()):.3g} times what the walls carry at an end without a hinge, where the "
-            f"model is rigid: {'it' if one else 'they'} would fold there. Write 'hinges: auto', or let "
-            "members bend with analysis.multibody.members: elastic."
+            f"model is rigid: {'it' if one else 'they'} would fold there. Write 'hinges: auto'{BEND}."
         )
         for member, use in found.items():
             yield Caution("overloaded_section", use, USED, "1", f"member {member}", text)

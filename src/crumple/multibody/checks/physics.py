@@ -27,8 +27,9 @@ from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import turned
 from crumple.result import Caution
 from crumple.structure import Structure
-from crumple.structure.hinges.lengthening.nodes_met import supports_met
+from crumple.structure.hinges.lengthening.nodes_met import TOGETHER, supports_met
 from crumple.structure.hinges.spatial_hinges import interaction_of
+from crumple.structure.keys.obstacles import gap
 from crumple.units import format_quantity
 
 FALL = 1e-3
@@ -239,6 +240,7 @@ def impact_losses(structure: Structure, solved: Solved, total: float) -> Iterato
         stopped = "".join(
             f" Obstacle {obstacle} meets node {node}, which supports hold."
             for obstacle, node in supports_met(structure)
+            if _reached(structure, solved, obstacle, node)
         )
         yield Caution(
             "impact_loss",
@@ -249,6 +251,17 @@ def impact_losses(structure: Structure, solved: Solved, total: float) -> Iterato
             f"{format_quantity(lost, 'J', 4)} of {format_quantity(total, 'J', 4)} energy input "
             f"({lost / total:.0%}) are lost in {where}; a shell run shows where it goes.{stopped}",
         )
+
+
+def _reached(structure: Structure, solved: Solved, obstacle: str, node: str) -> bool:
+    """Whether an obstacle comes to the walls around a held node, by its distances at the output times."""
+    channels = {channel.name: channel.values for channel in solved.further}
+    names = [f"obstacle.{obstacle}.displacement.{axis}" for axis in "xyz"]
+    path = np.stack([channels.get(name, np.zeros(1)) for name in names], axis=-1)
+    outlines = [structure.section_of(name).outer_outline() for name in structure.members_at[node]]
+    half = max((float(np.ptp(outline, axis=0).max()) / 2.0 for outline in outlines), default=0.0)
+    places = np.asarray(structure.nodes[node], float) - path
+    return bool(gap(structure.obstacles[obstacle], places).min() <= half + TOGETHER)
 
 
 def _lost_in_impacts(solved: Solved) -> float:

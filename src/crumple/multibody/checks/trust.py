@@ -33,6 +33,8 @@ ERROR_SHARE = 0.01
 """Estimated error of a rotation relative to the largest rotation above which a warning is given."""
 SMALL_ERROR = 5e-4
 """Estimated error [rad] that is negligible, however small the rotations are: 0.03 deg."""
+BEND = "; use analysis.multibody.members: elastic"
+"""What helps rigid bars that could store more."""
 SLOW_SHARE = 0.05
 """Energy removed from the motion over that in the structure above which a stage is not quasi-static."""
 LOCKED = (
@@ -186,7 +188,7 @@ def warnings(
         found.append(
             f"The bars are rigid, but the members could store up to {stored:.3g} J elastically "
             f"({_share(stored / total)}): rotations lack the elastic part and the plastic ones are "
-            "too large; use analysis.multibody.members: elastic."
+            f"too large{BEND}."
         )
     found += _slowed(solved)
     if solved.forced:

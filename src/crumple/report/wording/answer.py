@@ -12,6 +12,8 @@ from crumple.units import format_quantity
 
 MOST_CAUTIONS = 5
 """Lines of cautions before the pictures; the others are folded."""
+ROUNDING = 1e-3
+"""Part of the absorbed energy that is not worth a word where hinges and dents did not take it."""
 _NUMBER = re.compile(r"[-−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 
@@ -30,16 +32,24 @@ def _absorbed(result: Result) -> str:
     channel = result.channels.get("energy.dissipated")
     if channel is None or not len(channel.values) or not channel.values[-1] > 0.0:
         return ""
-    total = format_quantity(float(channel.values[-1]), "J")
+    absorbed = float(channel.values[-1])
+    total = format_quantity(absorbed, "J")
     if not result.hinges:
         return f"The structure absorbed {total}."
     name = largest_first({name: hinge.energy for name, hinge in result.hinges.items()})[0]
     most = result.hinges[name]
     if len(result.hinges) == 1 or not most.energy > 0.0:
         return f"The structure absorbed {total}."
-    parts = [hinge.energy for hinge in result.hinges.values()] + [dent.energy for dent in result.dents]
+    folded = sum(hinge.energy for hinge in result.hinges.values()) + sum(dent.energy for dent in result.dents)
     where = f"{len(result.hinges)} hinges{' and dents' if result.dents else ''}"
-    return f"The structure absorbed {total} in {where}, {percent(most.energy / sum(parts))} of it in {name}."
+    share = f"{percent(most.energy / folded)} of it in {name}"
+    if abs(absorbed - folded) <= ROUNDING * absorbed:
+        return f"The structure absorbed {total} in {where}, {share}."
+    parts = f"{format_quantity(folded, 'J')} in {where} ({share})"
+    if folded > absorbed:
+        return f"The structure absorbed {parts}."
+    rest = format_quantity(absorbed - folded, "J")
+    return f"The structure absorbed {total}: {parts} and {rest} along members that yield between hinges."
 
 
 def _dented(result: Result) -> str:

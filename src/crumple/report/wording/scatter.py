@@ -25,7 +25,7 @@ def criterion_sentences(result: Result) -> Iterator[str]:
         ]
         wanted = " and ".join(limits)
         if one.kept is None:
-            yield f"Criterion {one.name}: {one.channel} has no value."
+            yield f"Criterion {one.name} {_undecided(one)}."
             continue
         kept = "kept" if one.kept else "violated"
         value = _quantity(one.value, one.unit)
@@ -44,6 +44,16 @@ def scatter_sentences(result: Result) -> Iterator[str]:
         more = "The scatter is that of the input's numbers alone; it contains no error of the model"
         range_told = ", whose range from the bands of the laws is stated apart" if result.law_range else ""
         yield f"{more}{range_told}."
+
+
+def _undecided(one: Judged) -> str:
+    if math.isfinite(one.value):
+        return (
+            f"not decided: the run ended early, {_told(one)} is {_quantity(one.value, one.unit)} until then"
+        )
+    if one.take == "at":
+        return f"not decided: {one.channel} has no value at its time, or the run ended before"
+    return f"not decided: {one.channel} has no value"
 
 
 def _told(one: Judged) -> str:

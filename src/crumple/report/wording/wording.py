@@ -106,15 +106,13 @@ def _balance(result: Result, bound: float | None) -> str:
 
 
 def _error(result: Result) -> str:
-    errors = {
-        name: h.rotation_error
-        for name, h in result.hinges.items()
-        if h.rotation_error is not None and h.bends
-    }
-    if not errors:
+    bending = {name: hinge.rotation_max for name, hinge in result.hinges.items() if hinge.bends}
+    if not bending:
         return ""
-    name = largest_first(errors)[0]
-    error, hinge = errors[name], result.hinges[name]
+    hinge = result.hinges[largest_first(bending)[0]]
+    error = hinge.rotation_error
+    if error is None:
+        return ""
     share = f" ({percent(error / hinge.rotation_max)})" if hinge.rotation_max > 0 else ""
     return f" Estimated error of the largest rotation: {degrees(error, 2)}°{share}."
 

@@ -16,6 +16,8 @@ LEAST_ELEMENTS = 4.0
 """Elements along half a fold below which there is a warning.  A cantilever of square tube 50x2 mm that is
 struck at its tip stops at 210, 228, 249 and 255 mm with 2.6, 3.5, 5.3 and 7.1 of them: coarse folds take too
 much energy, and where the moment falls, a tenth of the energy is a fifth of the way."""
+FEW = "The mesh has as few as "
+"""Start of the warning."""
 LONGER = 1.05
 """Length of elements over `fine_size`, at most, in a fine zone of ten or more: their number is rounded."""
 
@@ -37,7 +39,7 @@ def coarse_folds(structure: Structure, mesh: Mesh) -> Iterator[str]:
             if place.member in found
         )
         yield (
-            f"The mesh has as few as {min(found.values()):.1f} elements along half a fold of "
+            f"{FEW}{min(found.values()):.1f} elements along half a fold of "
             f"{'member' if len(found) == 1 else 'members'} {listed(found)}. Below {LEAST_ELEMENTS:.0f} folds "
             "of thin walls take too much energy, and rotations are too small: use fine_size "
             f"{_advised(size):.2g} mm."

@@ -68,6 +68,18 @@ def test_a_second_mesh_that_was_stopped_does_not_change_the_verdict(case, multib
     assert any("The shell, 20 mm run: cancelled" in text for text in found.trust.cautions)
 
 
+def test_a_reference_with_a_coarse_mesh_says_so_beside_the_verdict(case, multibody):
+    few = "The mesh has as few as 2.6 elements along half a fold of member tube. Below 4 folds take too much."
+    whole = folded_result(largest=0.545)
+    found = compare(multibody, replace(whole, warnings=(few,)), case.structure)
+    plain = compare(multibody, whole, case.structure)
+    assert found.trust.level != "good"
+    said = " The mesh of the shell run is too coarse to judge: 2.6 elements along half a fold of member tube."
+    assert found.trust.headline.endswith(said)
+    assert "coarse" not in plain.trust.headline
+    assert f"Of the shell run: {few}" in found.trust.cautions
+
+
 def test_runs_without_folds_do_not_disagree(case, multibody):
     flat = folded_result([(0.01, 0.04, 0.0 * TIMES)])
     still = folded_result([(0.01, 0.04, 0.0 * TIMES)])

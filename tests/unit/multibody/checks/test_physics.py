@@ -9,7 +9,7 @@ from tests.support.structures import STEEL, cantilever, constant_law
 from crumple.errors import Status
 from crumple.multibody import Run, solve_multibody
 from crumple.multibody.checks import physics
-from crumple.result import Caution, CrumpledEnd, sentences
+from crumple.result import Caution, Channel, CrumpledEnd, sentences
 from crumple.structure import MultibodySettings, Structure
 from crumple.structure.hinges.lengthening.nodes_met import supports_met
 
@@ -196,9 +196,14 @@ def test_what_an_obstacle_meets_at_a_support_is_named(x, supported, expected):
         obstacles={"ram": {"type": "plane", "point": (-0.2, 0.0, 0.0), "normal": (1.0, 0.0, 0.0)}},
     )
     assert list(supports_met(structure)) == [("ram", node) for node in expected]
-    solved = SimpleNamespace(energy={"contact": np.array([0.0, 50.0])}, crushed=(), crumpled=())
-    (found,) = physics.impact_losses(structure, solved, 100.0)
-    assert ("Obstacle ram meets node foot" in found.text) == bool(expected)
+    # the plane starts 0.2 m from the post: it is said only where it comes there
+    for path, reached in ((0.18, True), (0.1, False)):
+        moved = Channel("obstacle.ram.displacement.x", "m", np.array([0.0, path, 0.05]))
+        still = [Channel(f"obstacle.ram.displacement.{axis}", "m", np.zeros(3)) for axis in "yz"]
+        energy = {"contact": np.array([0.0, 50.0])}
+        solved = SimpleNamespace(energy=energy, crushed=(), crumpled=(), further=(moved, *still))
+        (found,) = physics.impact_losses(structure, solved, 100.0)
+        assert ("Obstacle ram meets node foot" in found.text) == (bool(expected) and reached)
 
 
 def test_a_violation_changes_the_status(monkeypatch):

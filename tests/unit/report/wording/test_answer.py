@@ -21,6 +21,29 @@ def test_three_sentences_of_a_hinge_that_bends():
     assert "within its bound" in said[2]
 
 
+def test_total_and_share_of_the_energy_are_of_one_kind():
+    """The tube absorbs 783.7 J; what its hinges did not take is told apart."""
+    hinge = tube_result().hinges["root"]
+    for energies, said in (
+        ((583.7, 200.0), "The structure absorbed 783.7 J in 2 hinges, 74 % of it in a."),
+        (
+            (300.0, 200.0),
+            "The structure absorbed 783.7 J: 500 J in 2 hinges (60 % of it in a) "
+            "and 283.7 J along members that yield between hinges.",
+        ),
+        ((600.0, 200.0), "The structure absorbed 800 J in 2 hinges (75 % of it in a)."),
+    ):
+        hinges = {name: replace(hinge, energy=energy) for name, energy in zip("ab", energies, strict=True)}
+        assert sentences(tube_result(hinges=hinges))[0] == said
+
+
+def test_the_error_is_that_of_the_largest_rotation():
+    far = replace(tube_result().hinges["root"], rotation_max=0.5, rotation_error=0.001)
+    near = replace(far, rotation_max=0.1, rotation_error=0.01)
+    said = " ".join(sentences(tube_result(hinges={"near": near, "far": far})))
+    assert "Estimated error of the largest rotation: 0.057° (0.2 %)." in said
+
+
 def test_a_crush_zone_is_told_by_its_forces():
     zone = CrushSummary(0.15, 0.15, 60e3, 20e3, 3e3, 0.1, 0.4, bottomed_out=True)
     hinge = replace(tube_result().hinges["root"], crush=zone)

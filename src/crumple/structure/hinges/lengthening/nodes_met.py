@@ -38,7 +38,7 @@ def nodes_met(structure: StructureParts, obstacle: Obstacle) -> Iterator[tuple[s
 
 
 def supports_met(structure: StructureParts) -> Iterator[tuple[str, str]]:
-    """Obstacles, and the nodes that they meet first or together with the first, and that supports hold."""
+    """Obstacles, and the nodes that they would meet first or with the first, and that supports hold."""
     for name, obstacle in structure.obstacles.items():
         nodes = list(_first(structure, obstacle))
         if not nodes:
