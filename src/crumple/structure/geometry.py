@@ -199,16 +199,23 @@ def _near_global(normal: Floats) -> Floats:
 
 def are_level(frames: Sequence[Frame], normal: Floats) -> bool:
     """Whether members lie in a plane, and their sections in one way to it, but for rounding."""
-    across = [axis * math.copysign(1.0, float(axis @ normal)) for axis in _square_axes(frames, normal)]
-    return all(abs(float(frame.x @ normal)) <= EXACT for frame in frames) and all(
-        float(np.linalg.norm(axis - across[0])) <= EXACT for axis in across
-    )
+    if not frames:
+        return True
+    axes = np.array([frame.axes for frame in frames])
+    if np.abs(axes[:, 0] @ normal).max() > EXACT:
+        return False
+    across = _square_axes(axes, normal)
+    return not len(across) or float(np.linalg.norm(across - across[0], axis=1).max()) <= EXACT
 
 
-def _square_axes(frames: Sequence[Frame], normal: Floats) -> list[Floats]:
-    """Axes of sections that are normal to a plane but for rounded coordinates."""
-    turned = (max(frame.axes[1:], key=lambda axis: abs(float(axis @ normal))) for frame in frames)
-    return [axis for axis in turned if float(np.linalg.norm(np.cross(axis, normal))) < SQUARE]
+def _square_axes(axes: Floats, normal: Floats) -> Floats:
+    """Axes of sections, (m, 3), that are a plane's normal but for rounded coordinates; of axes (n, 3, 3)."""
+    shares = axes[:, 1:] @ normal
+    nearer = np.arange(len(axes)), np.abs(shares).argmax(axis=1)
+    turned = axes[:, 1:][nearer] * np.sign(shares[nearer])[:, None]
+    aside = turned - np.abs(shares[nearer])[:, None] * normal
+    square: Floats = turned[np.linalg.norm(aside, axis=1) < SQUARE]
+    return square
 
 
 def levelled(frame: Frame, normal: Floats, *, is_round: bool) -> Frame:
@@ -219,7 +226,7 @@ def levelled(frame: Frame, normal: Floats, *, is_round: bool) -> Frame:
     """
     along = frame.x - float(frame.x @ normal) * normal
     along = along / float(np.linalg.norm(along) or 1.0)
-    square = bool(_square_axes([frame], normal))
+    square = len(_square_axes(frame.axes[None], normal)) > 0
     if abs(float(frame.x @ normal)) >= SQUARE or not (square or is_round):
         return frame
     y, z = frame.y, frame.z

@@ -144,8 +144,9 @@ class StructureParts(Spec):
         frames = self.kept.frames
         found: Frame | None = frames.get(member)
         if found is None:
-            found = self._own_frame_of(member)
-            if not self.kept.once("level", "", self._is_level):
+            level = self.kept.once("level", "", self._is_level)
+            found = frames.get(member) or self._own_frame_of(member)
+            if not level:
                 section = self.sections.get(self.members[member].section)
                 is_round = section is not None and section.type == "circular_tube"
                 found = levelled(found, np.array(self.bending_normal), is_round=is_round)
@@ -153,16 +154,18 @@ class StructureParts(Spec):
         return found
 
     def _is_level(self) -> bool:
-        """Whether the members' own axes are those of a plane, or not nearly so."""
+        """Whether the members' own axes, which are kept then, are those of a plane, or not nearly so."""
         normal = self.bending_normal
         if normal is None:
             return True
-        frames = []
+        own = {}
         for member, spec in self.members.items():
             if spec.section in self.sections and all(node in self.nodes for node in spec.nodes):
                 with suppress(ValueError):
-                    frames.append(self._own_frame_of(member))
-        return are_level(frames, np.array(normal))
+                    own[member] = self._own_frame_of(member)
+        level = are_level(list(own.values()), np.array(normal))
+        self.kept.frames.update(own if level else {})
+        return level
 
     def _own_frame_of(self, member: str) -> Frame:
         spec = self.members[member]
