@@ -17,6 +17,7 @@ from crumple.analysis.reading import Document, read_file, read_text
 from crumple.analysis.solve import solved_alone
 from crumple.analysis.uncertainty import Uncertainty, in_si
 from crumple.errors import InputError, Problem
+from crumple.portable import command_line
 from crumple.structure import (
     Outputs,
     StoredLaws,
@@ -236,6 +237,10 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
 def _check_format(document: Document, file: str) -> None:
     """Refuse another format version before its keys are checked."""
     version = document.data.get("crumple")
+    if version is None and "crumple_study" in document.data:
+        what, line = "this is a study file, not an input file", document.line_of(("crumple_study",))
+        todo = f"use: {command_line('crumple', 'study', file or 'FILE')}"
+        raise InputError(Problem(what, "crumple_study", "an input file", todo, "", file, line))
     if version != FORMAT or isinstance(version, bool):
         what = "the format version is missing" if version is None else "this format version is not known"
         todo = f"write 'crumple: {FORMAT}' as the first line"

@@ -7,6 +7,7 @@ of the JSON schema of YAML; every other plain text stays a text.
 
 from __future__ import annotations
 
+import codecs
 import math
 import re
 from collections.abc import Iterator
@@ -29,6 +30,7 @@ DEEPEST = 16
 
 _NEAR = "look at this line and the one before; indent with spaces, quote texts that contain ': ' or '#'"
 _CONTROL = re.compile(r"[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_CONTROL_BYTE = re.compile(rb"[\0-\x08\x0e-\x1f\x7f]")
 _NUMBER = re.compile(r"[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?")
 _NOT_FINITE = re.compile(r"[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN)")
 _CONSTANTS: dict[str, bool | None] = {"": None, "~": None, "null": None, "Null": None, "NULL": None}
@@ -69,7 +71,7 @@ def read_file(path: Path) -> Document:
     Raises
     ------
     InputError
-        If it is missing, too large, binary, empty or not YAML.
+        If it is missing, too large, binary, not UTF-8, empty or not YAML.
     """
     name = str(path)
     try:
@@ -92,8 +94,12 @@ def read_file(path: Path) -> Document:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
-        todo = "write it with a text editor, in UTF-8"
-        raise _refusal("the file is binary", name, "", "a YAML text in UTF-8", todo, line) from None
+        wide = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+        text_of_another_kind = wide or not _CONTROL_BYTE.search(content)
+        what = "the text is not UTF-8" if text_of_another_kind else "the file is binary"
+        came = "UTF-16" if wide else f"the byte {content[error.start]:#04x}" if text_of_another_kind else ""
+        todo = "save it again as UTF-8" if text_of_another_kind else "write it with a text editor, in UTF-8"
+        raise _refusal(what, name, came, "a YAML text in UTF-8", todo, line) from None
     return read_text(text, name)
 
 

@@ -229,11 +229,11 @@ def _direction(given: _Place) -> Direction:
 
 def _corner(angle: str | None) -> float | None:
     """Angle of a corner [rad]."""
+    from crumple.cli.console.named import quantity_of
     from crumple.errors import InputError, Problem
     from crumple.hinge.corner.in_plane import LARGEST
-    from crumple.units import parse_quantity
 
-    corner = None if angle is None else parse_quantity(angle, "rad")
+    corner = None if angle is None else quantity_of("--angle", angle, "rad")
     if corner is not None and not 0.0 < corner <= LARGEST:
         allowed, todo = "above 0 deg, at most 100 deg", "0 would be a straight member: leave --angle out"
         raise InputError(
@@ -244,10 +244,10 @@ def _corner(angle: str | None) -> float | None:
 
 def _largest(to: str) -> float:
     """Plastic rotation at which a law ends [rad]."""
+    from crumple.cli.console.named import quantity_of
     from crumple.errors import InputError, Problem
-    from crumple.units import parse_quantity
 
-    largest = parse_quantity(to, "rad")
+    largest = quantity_of("--to", to, "rad")
     if not SMALLEST <= largest <= LARGEST:
         raise InputError(Problem("the rotation is out of range", to, "5 deg to 60 deg", "", "--to"))
     return largest

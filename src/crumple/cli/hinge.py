@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -76,14 +77,13 @@ def hinge(
 
 
 def _largest(text: str) -> float:
+    from crumple.cli.console.named import quantity_of
     from crumple.errors import InputError, Problem
-    from crumple.units import parse_quantity
 
-    rotation = parse_quantity(text, "rad")
+    rotation = quantity_of("--to", text, "rad")
     if not 0.0 < rotation <= LARGEST:
-        raise InputError(
-            Problem("the largest rotation is out of range", text, "above 0 deg, at most 180 deg")
-        )
+        what, allowed = "the largest rotation is out of range", "above 0 deg, at most 180 deg"
+        raise InputError(Problem(what, text, allowed, "", "--to"))
     return rotation
 
 
@@ -91,6 +91,7 @@ def _laws(
     shape: Section, metal: Material, axis: Axis, wanted: list[str] | None
 ) -> tuple[dict[str, HingeLaw], list[str]]:
     """Laws to show, and a sentence for each that does not apply; a law requested by name must apply."""
+    from crumple.cli.console.named import option
     from crumple.errors import InputError, Problem
     from crumple.hinge import build_law, fitting_laws, law_types, needs_curve
 
@@ -102,7 +103,8 @@ def _laws(
                 Problem("this law comes from a file, not from the section", name, allowed, todo, "--law")
             )
     if wanted:
-        return {name: build_law(name, shape, metal, axis) for name in wanted}, []
+        with option("--law"):
+            return {name: build_law(name, shape, metal, axis) for name in wanted}, []
     laws, refused = fitting_laws(shape, metal, axis)
     return laws, [f"Not shown: {name}, {error.problems[0].what}" for name, error in refused.items()]
 
@@ -116,9 +118,46 @@ def _measured(shape: Section, metal: Material, axis: Axis, files: list[Path]) ->
     for file in files:
         if file.stat().st_size > LARGEST_CURVE:
             raise InputError(Problem("the curve file is too large", str(file), f"{LARGEST_CURVE / 1e6:g} MB"))
-        rotation, moment = read_table(file.read_text(encoding="utf-8", errors="replace"), str(file))
+        text = file.read_text(encoding="utf-8", errors="replace")
+        rotation, moment = read_table(text, str(file))
+        _refuse_rows(rotation, moment, text, str(file))
         laws[file.name] = build_law("table", shape, metal, axis, rotation=rotation, moment=moment)
     return laws
+
+
+def _refuse_rows(rotation: Floats, moment: Floats, text: str, file: str) -> None:
+    """Refuse the first row of a measured curve that no law can have, with its line."""
+    from crumple.errors import InputError, Problem
+    from crumple.units import format_quantity
+
+    lines = [n for n, line in enumerate(text.splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"]
+    for i, (angle, value) in enumerate(zip(rotation.tolist(), moment.tolist(), strict=True)):
+        turned, carried = format_quantity(angle, "rad"), format_quantity(value, "N*m")
+        problem = None
+        if i == 0 and value == 0.0:
+            what, allowed = (
+                "the curve begins with its elastic rise",
+                "plastic rotation, from 0, with a moment",
+            )
+            todo = "take off the elastic rise, or give the file to a law 'type: measured' of an input file"
+            problem = Problem(what, carried, allowed, todo)
+        elif value <= 0.0:
+            todo = (
+                "keep a small residual moment; give the other sense as positive numbers in a file of its own"
+            )
+            problem = Problem("the moment is not positive", carried, "more than 0 N m", todo)
+        elif i > 0 and angle <= rotation[i - 1]:
+            came = f"{turned} after {format_quantity(float(rotation[i - 1]), 'rad')}"
+            allowed, todo = (
+                "each rotation larger than the one before",
+                "sort the rows, leave out repeated ones",
+            )
+            problem = Problem("the rotations do not increase", came, allowed, todo)
+        elif angle > LARGEST:
+            todo = "check the unit in the head of the file"
+            problem = Problem("the rotation is more than half a turn", turned, "at most 180 deg", todo)
+        if problem is not None:
+            raise InputError(replace(problem, where="--curve", file=file, line=lines[i + 1]))
 
 
 def _law_file(laws: dict[str, HingeLaw], shape: Section, metal: Material, axis: str) -> str:

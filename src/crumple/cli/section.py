@@ -35,15 +35,14 @@ def section(
     from rich.console import Console
     from rich.text import Text
 
-    from crumple.cli.console.named import material_of, section_of
+    from crumple.cli.console.named import material_of, quantity_of, section_of
     from crumple.errors import InputError, Problem
     from crumple.section import walls_of
-    from crumple.units import parse_quantity
 
     shape = section_of(section)
     metal, assumed = material_of(material) if material else (None, [])
-    turned = None if angle is None else parse_quantity(angle, "rad")
-    force = parse_quantity(axial, "N")
+    turned = None if angle is None else quantity_of("--angle", angle, "rad")
+    force = quantity_of("--axial", axial, "N")
     if force and metal is None:
         raise InputError(Problem("an axial force needs a material", axial, "", "add --material", "--axial"))
     walled = walls_of(shape)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crumple.errors import InputError
+from crumple.errors import InputError, Problem
 from crumple.numeric.arrays import Floats
 
 
@@ -54,14 +54,22 @@ def checked_table(xs: Sequence[float] | Floats, ys: Sequence[float] | Floats) ->
     """Places and values as arrays; raises what `table` raises."""
     places, values = np.asarray(xs, np.float64), np.asarray(ys, np.float64)
     if places.ndim != 1 or places.shape != values.shape or places.size < 2:
-        raise InputError(
-            f"a table needs two lists of one length, at least 2, not shapes {places.shape} and {values.shape}"
-        )
+        came = f"{_entries(places)} in the first, {_entries(values)} in the second"
+        what, allowed = "a table needs two lists of one length", "at least 2 numbers in each"
+        raise InputError(Problem(what, came, allowed, "give a value for each place"))
     if not (np.all(np.isfinite(places)) and np.all(np.isfinite(values))):
         raise InputError("a table needs finite numbers")
     if not np.all(np.diff(places) > 0.0):
         first = int(np.argmax(np.diff(places) <= 0.0))
-        raise InputError(
-            f"the places of a table must increase: {places[first + 1]:g} follows {places[first]:g}"
-        )
+        came = f"{places[first + 1]:g} (SI) after {places[first]:g}, at place {first + 2} of the list"
+        todo = "sort the rows; for a jump put two places a little apart"
+        what = "the places of a table must increase"
+        raise InputError(Problem(what, came, "each place larger than the one before", todo))
     return places, values
+
+
+def _entries(values: Floats) -> str:
+    """Size of what should be a list of numbers, in words."""
+    if values.ndim != 1:
+        return "no list of numbers"
+    return f"{values.size} number{'' if values.size == 1 else 's'}"

@@ -19,7 +19,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crumple.errors import InputError
+from crumple.errors import InputError, Problem
 from crumple.function.contact import bistop, impact
 from crumple.function.key_points import key_points
 from crumple.function.table import checked_table, slopes_of
@@ -158,7 +158,8 @@ class Transition(TimeFunction):
         if self.kind not in PASSAGES:
             raise InputError(f"{self.kind!r} is not one of {', '.join(PASSAGES)}")
         if not self.x0 < self.x1:
-            raise InputError(f"{self.kind} needs x0 < x1, not {self.x0:g} s and {self.x1:g} s")
+            came, todo = f"x0 = {self.x0:g} s, x1 = {self.x1:g} s", "exchange them, or correct the times"
+            raise InputError(Problem(f"{self.kind} ends before it begins", came, "x0 < x1", todo))
 
     def __call__(self, t: ArrayLike) -> Floats:
         return PASSAGES[self.kind][0](t, self.x0, self.h0, self.x1, self.h1)

@@ -243,8 +243,8 @@ FILES = {
     "zeros": (b"\0" * 1000, "the file is binary"),
     "program": (b"\x7fELF\x02\x01\x01\0\0\0", "the file is binary"),
     "picture": (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "the file is binary"),
-    "latin": ("title: Stoßstange\n".encode("latin-1"), "the file is binary"),
-    "utf-16": (GOOD.encode("utf-16"), "the file is binary"),
+    "latin": ("title: Stoßstange\n".encode("latin-1"), "the text is not UTF-8"),
+    "utf-16": (GOOD.encode("utf-16"), "the text is not UTF-8"),
     "escape": (b"title: \x1b[31mred\n", "the file is binary"),
 }
 
@@ -255,6 +255,18 @@ def test_a_file_that_is_no_description_is_refused(tmp_path, case):
     (problem,) = mistakes(tmp_path / "a.yaml", content)
     assert problem.what == what
     assert problem.line >= 1
+
+
+def test_the_first_letter_that_is_not_utf_8_has_its_line(tmp_path):
+    (problem,) = mistakes(tmp_path / "a.yaml", (GOOD + "# Stoßstange\n").encode("latin-1"))
+    assert (problem.line, problem.came) == (GOOD.count("\n") + 1, "the byte 0xdf")
+
+
+def test_a_study_file_is_named_with_its_command(tmp_path):
+    path = tmp_path / "my study.yaml"
+    (problem,) = mistakes(path, "title: a\ncrumple_study: 1\n")
+    assert (problem.what, problem.line) == ("this is a study file, not an input file", 2)
+    assert problem.todo == f"use: crumple study '{path}'"
 
 
 def test_a_large_file_is_refused_unread(tmp_path):

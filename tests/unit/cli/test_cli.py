@@ -224,6 +224,13 @@ def test_hinge_prints_laws_side_by_side(run_command, tmp_path: Path) -> None:
         (("hinge", TUBE, "--material", STEEL, "--to", "0 deg"), "out of range"),
         (("hinge", TUBE, "--material", STEEL, "--to", "30 m"), "but an angle is needed"),
         (("hinge", TUBE, "--material", STEEL, "--curve", "nowhere.csv"), "nowhere.csv"),
+        (("hinge", TUBE, "--material", STEEL, "--to", "60"), "--to: the unit is missing"),
+        (("hinge", TUBE, "--material", STEEL, "--law", "nix"), "--law: unknown hinge law"),
+        (("hinge", TUBE, "--material", "yield 350"), "--material: the unit is missing"),
+        (("section", TUBE, "--material", STEEL, "--axial", "20"), "--axial: the unit is missing"),
+        (("section", TUBE, "--angle", "30"), "--angle: the unit is missing"),
+        (("characterise", TUBE, "--material", STEEL, "--to", "60"), "--to: the unit is missing"),
+        (("characterise", TUBE, "--material", STEEL, "--angle", "30"), "--angle: the unit is missing"),
         (("run", EXAMPLE, "--fidelity", "magic"), "multibody"),
         (("walk",), "walk"),
     ],
@@ -231,6 +238,24 @@ def test_hinge_prints_laws_side_by_side(run_command, tmp_path: Path) -> None:
 def test_wrong_arguments(run_command, arguments: tuple[str, ...], message: str) -> None:
     code, out, err = run_command(*arguments)
     assert (code, out) == (2, "")
+    assert message in " ".join(err.split())
+
+
+@pytest.mark.parametrize(
+    ("rows", "line", "message"),
+    [
+        ("0, 1\n# note\n5, 2\n3, 3\n", 5, "the rotations do not increase"),
+        ("0, 1\n5, -2\n", 3, "the moment is not positive"),
+        ("0, 1\n5, 2\n\n300, 2\n", 5, "the rotation is more than half a turn"),
+        ("0, 0\n1, 2\n", 2, "give the file to a law 'type: measured' of an input file"),
+    ],
+)
+def test_rows_of_a_measured_curve_are_refused_by_their_lines(run_command, tmp_path, rows, line, message):
+    file = tmp_path / "curve.csv"
+    file.write_text(f"rotation [deg], moment [kN*m]\n{rows}", encoding="utf-8")
+    code, out, err = run_command("hinge", TUBE, "--material", STEEL, "--curve", file)
+    assert (code, out) == (2, "")
+    assert f"{file}:{line}: --curve: " in err
     assert message in " ".join(err.split())
 
 

@@ -3,13 +3,16 @@
 import json
 import math
 from pathlib import Path
+from types import SimpleNamespace
 
 from tests.support.stored_laws import law_text, store_of
 from typer.testing import CliRunner
 
 from crumple.analysis import load
+from crumple.cli.console.laws import range_lines
 from crumple.cli.main import app
 from crumple.hinge.measured.place_hash import place_hash
+from crumple.result.nearby import LawRange
 
 FRAME = Path("examples/12_l_frame.yaml")
 
@@ -53,3 +56,21 @@ def test_a_store_that_is_not_there_is_refused(tmp_path):
     found = run("run", FRAME, "--laws", tmp_path / "none", "--out", tmp_path / "a")
     assert found.exit_code != 0
     assert not (tmp_path / "a").exists()
+
+
+def test_a_range_whose_runs_all_stopped_is_no_empty_line():
+    hinges = {"h": SimpleNamespace(rotation_max=0.1, energy=5.0)}
+
+    def lines(ranges, failed, cases=None):
+        found = LawRange(ranges, {"h": 0.2}, (), failed, cases or {})
+        return list(range_lines(SimpleNamespace(law_range=found, hinges=hinges)))
+
+    name = "hinge.h.energy"
+    (none,) = lines({name: (5.0, 5.0)}, ("nominal", "all laws low"))
+    assert none.startswith("No range from the laws, runs that stopped early")
+    assert none.endswith(": nominal; all laws low")
+    some = lines({name: (4.0, 5.0)}, ("nominal",), {"all laws low": {name: 4.0}})
+    assert some[0].endswith("hinge.h.energy 4 to 5 J")
+    assert some[1].startswith("Not in the range, runs that stopped early")
+    (same,) = lines({name: (5.0, 5.0)}, (), {"all laws low": {name: 5.0}})
+    assert same.endswith("nothing changes by more than rounding")

@@ -98,7 +98,7 @@ def test_stop_of_a_motion_is_impact_of_place_and_speed() -> None:
         (lambda: Transition("step", 1.0, 0.0, 1.0, 1.0), "x0 < x1"),
         (lambda: Table((0.0,), (1.0,)), "at least 2"),
         (lambda: Table((0.0, 1.0), (1.0,)), "one length"),
-        (lambda: Table((0.0, 2.0, 2.0), (1.0, 1.0, 1.0)), "2 follows 2"),
+        (lambda: Table((0.0, 2.0, 2.0), (1.0, 1.0, 1.0)), "2 .SI. after 2, at place 3"),
         (lambda: Table((0.0, 1.0), (1.0, float("nan"))), "finite"),
         (lambda: Sum(()), "at least one"),
         (lambda: Stop(Constant(0.0), 0.0, None, -1.0, 1.0, 0.0, 0.0), ">= 0"),
@@ -110,3 +110,19 @@ def test_stop_of_a_motion_is_impact_of_place_and_speed() -> None:
 def test_refusals(make, message: str) -> None:
     with pytest.raises(InputError, match=message):
         make()
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: Table((0.0, 1.0), (0.0, 1.0, 2.0)),
+        lambda: Table((0.0, 0.0), (0.0, 1.0)),
+        lambda: Transition("step", 0.005, 0.0, 0.001, 1.0),
+    ],
+)
+def test_refusals_say_what_to_do_in_words(make):
+    with pytest.raises(InputError) as refused:
+        make()
+    (problem,) = refused.value.problems
+    assert all((problem.came, problem.allowed, problem.todo))
+    assert "shape" not in str(problem)

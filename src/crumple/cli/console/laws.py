@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 MOST_RANGES = 6
 """Quantities whose range is printed; the files contain all."""
+STOPPED = "runs that stopped early (unlike the run itself, they are not repeated in another way)"
+"""Of runs with other laws: a single run may begin again aside of dead centres, or with walls that crush."""
 MOST_NAMES = 4
 """Names of hinges with one law that are listed; the files contain all."""
 
@@ -87,15 +89,19 @@ def range_lines(result: Result) -> Iterator[str]:
     if found is None:
         return
     rows = range_rows(result)
+    if not found.ranges or (found.failed and not found.cases):
+        yield f"No range from the laws, {STOPPED}: {'; '.join(found.failed)}"
+        return
     shown = "; ".join(f"{name} {low} to {high} {unit}" for name, unit, _, low, high in rows[:MOST_RANGES])
     more = f"; and {len(rows) - MOST_RANGES} more in summary.json" if len(rows) > MOST_RANGES else ""
+    shown = shown or "nothing changes by more than rounding"
     yield f"Range from the laws (a range, not a bound): {shown}{more}"
     if found.without:
         yield f"Without a band: {', '.join(found.without[:MOST_NAMES])}" + (
             f" and {len(found.without) - MOST_NAMES} more" if len(found.without) > MOST_NAMES else ""
         )
-    for name in found.failed:
-        yield f"Not in the range, the run did not reach its end: {name}"
+    if found.failed:
+        yield f"Not in the range, {STOPPED}: {'; '.join(found.failed)}"
 
 
 def with_range(result: Result, source: LoadedInput, threads: int, cancel: Callable[[], bool]) -> Result:

@@ -9,6 +9,9 @@ model.yaml:tube                                      the section or material of 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -55,6 +58,28 @@ _MATERIAL_KEYS = {
 }
 
 
+@contextmanager
+def option(name: str) -> Iterator[None]:
+    """Name the option of the command line in refusals that have no file."""
+    try:
+        yield
+    except InputError as error:
+        problems = [one if one.file else replace(one, where=name) for one in error.problems]
+        raise InputError(problems) from None
+
+
+def quantity_of(name: str, text: str, unit: str) -> float:
+    """SI value of an option of the command line, such as ``--to`` and "45 deg".
+
+    Raises
+    ------
+    InputError
+        With the name of the option, if it is no quantity of the unit.
+    """
+    with option(name):
+        return parse_quantity(text, unit)
+
+
 def section_of(text: str) -> Section:
     """Section from the command line's text.
 
@@ -80,8 +105,13 @@ def material_of(text: str) -> tuple[Material, list[str]]:
     Raises
     ------
     InputError
-        If the text is not a material, or a value cannot be accepted.
+        With the name of the option, if the text is not a material, or a value cannot be accepted.
     """
+    with option("--material"):
+        return _material_of(text)
+
+
+def _material_of(text: str) -> tuple[Material, list[str]]:
     named = _NAMED.fullmatch(text.strip())
     if named:
         structure = _loaded(named["path"]).structure
