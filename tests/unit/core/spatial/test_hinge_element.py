@@ -85,8 +85,9 @@ rates = st.lists(st.floats(-3.0, 3.0), min_size=4, max_size=4)
 
 
 @pytest.mark.parametrize(("form", "coupling", "n", "late"), LATE_CASES)
-@given(before=rates, start=rates, end=rates)
-def test_response_is_the_gradient_of_a_convex_potential(form, coupling, n, late, before, start, end):
+@given(led=st.tuples(rates, rates, rates))
+def test_response_is_the_gradient_of_a_convex_potential(form, coupling, n, late, led):
+    before, start, end = led
     stops = {"stop_positive": [1e-3, 1e4, 1.0, 3.0, 0.0], "stop_negative": [1e-3, 1e4, 1.5, 3.0, 0.0]}
     element = rig(made(form, coupling, n, viscous_damping=0.3, **stops))
     element.led(0.05, before[:n])
