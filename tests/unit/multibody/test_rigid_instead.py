@@ -75,14 +75,14 @@ structure = whole.structure.model_copy(update={"obstacles": {}})
 short = whole.model_copy(update={"structure": structure, "duration": 5e-4})
 result = crumple.solve(short)
 assert result.status.ok
-assert result.warnings[0].startswith("Members are rigid bars here")
+assert not any("rigid bars" in warning for warning in result.warnings)
 """
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="limits the address space")
 @pytest.mark.skipif("san.so" in os.environ.get("LD_PRELOAD", ""), reason="sanitizers need address space")
-def test_a_step_without_a_solution_brings_no_bars_into_reach():
-    """Rounding left 1e34 m/s of a step of short bars; with them 1175 pairs of bars touched, in all memory."""
+def test_joints_at_one_place_leave_no_bar_without_length():
+    """Rounding left 1e34 m/s of a step of such bars; with them 1175 pairs of bars touched, in all memory."""
     root = Path(__file__).parents[3]
     environment = {"PYTHONPATH": str(root), "OPENBLAS_NUM_THREADS": "1"}
     script = [sys.executable, "-c", CRAMPED]
