@@ -40,7 +40,7 @@ SANITIZED := build/sanitized
 SANITIZERS_address := address,undefined,float-cast-overflow
 SANITIZERS_thread := thread
 
-.PHONY: demo test fuzz check verify concordance bench wheel clean install lowest newest
+.PHONY: demo test fuzz check verify concordance bench wheel clean install lowest newest web
 
 demo: $(VENV)/installed $(TUBE)
 	$(BIN)/crumple compare $(TUBE) --out $(DEMO) --second-mesh 2

@@ -41,8 +41,9 @@ const editor = new Editor(find("editor"), nonce, {
     changed = now;
     state();
     clearTimeout(typing);
+    typing = 0;
     if (sliders.dragging || whole) ask(!sliders.dragging);
-    else typing = window.setTimeout(() => ask(true), TYPED);
+    else typing = window.setTimeout(() => { typing = 0; ask(true); }, TYPED);
     clearTimeout(keeping);
     keeping = window.setTimeout(keep, DRAFT);
   },
@@ -265,5 +266,5 @@ document.addEventListener("keydown", (event) => {
 // nothing is asked when the page goes: what was not saved is in the draft
 window.addEventListener("pagehide", keep);
 
-window.crumpleApp = { editor, told, get idle() { return !waiting && asked === answered && !drawing; } };
+window.crumpleApp = { editor, told, get idle() { return !typing && !waiting && asked === answered && !drawing; } };
 void connection.begin().catch(() => { banner.textContent = "The server does not answer. Start it again: crumple app"; banner.hidden = false; });

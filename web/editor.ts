@@ -14,6 +14,20 @@ export interface Events {
   save(): void;
 }
 
+/**
+ * Move a place of the text with a change.
+ * @returns whether it still has what it had: false if more than it was replaced
+ */
+export function follow(place: { start: number; end: number }, changes: ChangeDesc): boolean {
+  let kept = true;
+  changes.iterChangedRanges((from, to) => {
+    if (from < place.end && to > place.start && (from < place.start || to > place.end)) kept = false;
+  });
+  place.start = changes.mapPos(place.start, -1);
+  place.end = changes.mapPos(place.end, 1);
+  return kept;
+}
+
 export class Editor {
   readonly view: EditorView;
   schema: Schema | null = null;

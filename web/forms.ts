@@ -2,7 +2,7 @@
 // scalar and nothing else.
 import type { ChangeDesc } from "@codemirror/state";
 import { below } from "./completion";
-import type { Editor } from "./editor";
+import { type Editor, follow } from "./editor";
 import type { Form, Numeral, Schema, Word } from "./messages";
 import { made, Pictures } from "./show";
 
@@ -42,12 +42,9 @@ export class Forms {
     }
   }
 
-  /** The text changed: places move with it. */
+  /** The text changed: places move with it, and fields of scalars that were replaced do nothing until the answer comes. */
   moved(changes: ChangeDesc): void {
-    for (const one of this.scalars.values()) {
-      one.start = changes.mapPos(one.start, -1);
-      one.end = changes.mapPos(one.end, 1);
-    }
+    for (const [path, one] of this.scalars) if (!follow(one, changes)) this.scalars.delete(path);
   }
 
   /** Drawings, capacities and curves. */

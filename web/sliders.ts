@@ -1,6 +1,6 @@
 // A slider for every number of the text: it changes the digits of that number and nothing else.
 import type { ChangeDesc } from "@codemirror/state";
-import type { Editor } from "./editor";
+import { type Editor, follow } from "./editor";
 import type { Numeral } from "./messages";
 
 const MOST = 40;  // sliders that are shown
@@ -36,12 +36,9 @@ export class Sliders {
     this.draw();
   }
 
-  /** The text changed: places move with it. */
+  /** The text changed: places move with it, and numbers that were replaced have no slider until the answer comes. */
   moved(changes: ChangeDesc): void {
-    for (const one of this.numerals) {
-      one.start = changes.mapPos(one.start, -1);
-      one.end = changes.mapPos(one.end, 1);
-    }
+    this.numerals = this.numerals.filter((one) => follow(one, changes));
   }
 
   /** The number at the cursor comes first. */
@@ -76,6 +73,7 @@ export class Sliders {
       this.ended();
     };
     input.addEventListener("input", () => {
+      if (!this.numerals.includes(one)) return;
       const first = this.dragged !== one.path;
       if (first) this.begun();
       this.dragged = one.path;

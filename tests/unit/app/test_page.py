@@ -197,6 +197,22 @@ def test_arrow_keys_move_a_slider(page):
     assert page.evaluate(TEXT) != TUBE
 
 
+def test_sliders_and_fields_of_replaced_numbers_leave_the_new_text_alone(page):
+    until(page, f"{FILLED} > 0")
+    other = "# another text\n" + TUBE.replace("2.65 mm", "3 mm")
+    for control in (THICKNESS, FIELD.format("sections.tube.thickness")):
+        # the answer to the new text has not come when the old control moves
+        page.evaluate(
+            f"{{ const one = {control};"
+            f" crumpleApp.editor.put(0, {TEXT}.length, {json.dumps(other)}, true);"
+            " one.value = 2.8; for (const k of ['input', 'change']) one.dispatchEvent(new Event(k)); 1 }"
+        )
+        assert page.evaluate(TEXT) == other
+        until(page, "crumpleApp.idle")
+        page.evaluate(f"crumpleApp.editor.put(0, {TEXT}.length, {json.dumps(TUBE)}, true); 1")
+        until(page, f"crumpleApp.idle && !!{control}")
+
+
 def test_typing_shows_mistakes_at_their_line_and_keys_that_fit(page):
     put(page, "section: tube\n", "section: tub\n")
     until(page, "document.querySelectorAll('#problems button').length === 1")

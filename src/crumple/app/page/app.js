@@ -65,6 +65,15 @@
   }
 
   // editor.ts
+  function follow(place, changes) {
+    let kept = true;
+    changes.iterChangedRanges((from, to) => {
+      if (from < place.end && to > place.start && (from < place.start || to > place.end)) kept = false;
+    });
+    place.start = changes.mapPos(place.start, -1);
+    place.end = changes.mapPos(place.end, 1);
+    return kept;
+  }
   var Editor = class {
     constructor(parent, nonce2, events) {
       this.events = events;
@@ -258,11 +267,11 @@
         for (const side of ["x1", "x2"]) cursor.setAttribute(side, String(at));
       };
       put(Math.min(this.time, end));
-      const follow = (event) => {
+      const follow2 = (event) => {
         if (picture.isConnected) put(event.detail);
-        else document.removeEventListener("crumple-time", follow);
+        else document.removeEventListener("crumple-time", follow2);
       };
-      document.addEventListener("crumple-time", follow);
+      document.addEventListener("crumple-time", follow2);
     }
   };
   var Pictures = class {
@@ -345,12 +354,9 @@
         if (one && field !== document.activeElement) field.value = text.slice(one.start, one.end);
       }
     }
-    /** The text changed: places move with it. */
+    /** The text changed: places move with it, and fields of scalars that were replaced do nothing until the answer comes. */
     moved(changes) {
-      for (const one of this.scalars.values()) {
-        one.start = changes.mapPos(one.start, -1);
-        one.end = changes.mapPos(one.end, 1);
-      }
+      for (const [path, one] of this.scalars) if (!follow(one, changes)) this.scalars.delete(path);
     }
     /** Drawings, capacities and curves. */
     show(forms2) {
@@ -526,12 +532,9 @@
       this.numerals = numerals;
       this.draw();
     }
-    /** The text changed: places move with it. */
+    /** The text changed: places move with it, and numbers that were replaced have no slider until the answer comes. */
     moved(changes) {
-      for (const one of this.numerals) {
-        one.start = changes.mapPos(one.start, -1);
-        one.end = changes.mapPos(one.end, 1);
-      }
+      this.numerals = this.numerals.filter((one) => follow(one, changes));
     }
     /** The number at the cursor comes first. */
     draw() {
@@ -564,6 +567,7 @@
         this.ended();
       };
       input.addEventListener("input", () => {
+        if (!this.numerals.includes(one)) return;
         const first2 = this.dragged !== one.path;
         if (first2) this.begun();
         this.dragged = one.path;
@@ -637,8 +641,12 @@
       changed = now;
       state();
       clearTimeout(typing);
+      typing = 0;
       if (sliders.dragging || whole) ask(!sliders.dragging);
-      else typing = window.setTimeout(() => ask(true), TYPED);
+      else typing = window.setTimeout(() => {
+        typing = 0;
+        ask(true);
+      }, TYPED);
       clearTimeout(keeping);
       keeping = window.setTimeout(keep, DRAFT);
     },
@@ -868,7 +876,7 @@
   });
   window.addEventListener("pagehide", keep);
   window.crumpleApp = { editor, told, get idle() {
-    return !waiting && asked === answered && !drawing;
+    return !typing && !waiting && asked === answered && !drawing;
   } };
   void connection.begin().catch(() => {
     banner.textContent = "The server does not answer. Start it again: crumple app";
