@@ -13,11 +13,14 @@ import numpy as np
 
 from crumple.numeric.arrays import Floats
 from crumple.structure.geometry import FLAT, LEVEL
+from crumple.structure.keys.member import Member
 from crumple.structure.keys.obstacles import CylinderObstacle, Obstacle, PlaneObstacle
 from crumple.structure.parts import StructureParts
 
 PLANAR = ("planar", "")
 """Key of the answer of `planar` among the structure's derived data."""
+OFF_AXIS = 0.5
+"""Angle [deg] between a section's axis and the normal of the plane above which bending across counts."""
 
 
 def bending_axis(structure: StructureParts, member: str) -> Literal["y", "z"]:
@@ -39,11 +42,35 @@ def bending_axis(structure: StructureParts, member: str) -> Literal["y", "z"]:
 
 
 def planar(structure: StructureParts) -> bool:
-    """Whether a structure lies in a plane, with no motion, load or obstacle that pushes out of it."""
+    """Whether a structure lies in a plane and bends in it.
+
+    No motion, load or obstacle pushes out of it, and no section is turned to it: one whose axes are at an
+    angle to the plane also bends across it.
+    """
     normal = structure.bending_normal
     return normal is not None and structure.kept.once(
-        *PLANAR, lambda: across_plane(structure, np.asarray(normal)) is None
+        *PLANAR,
+        lambda: (
+            not _turned(structure, np.asarray(normal)) and across_plane(structure, np.asarray(normal)) is None
+        ),
     )
+
+
+def _turned(structure: StructureParts, normal: Floats) -> bool:
+    """Whether a section has neither axis along the normal of a plane; round ones have one along any."""
+    least = np.cos(np.radians(OFF_AXIS))
+    return any(
+        structure.has_line(name)
+        and _axes_matter(structure, member)
+        and np.abs(structure.frame_of(name).axes @ normal).max() < least
+        for name, member in structure.members.items()
+    )
+
+
+def _axes_matter(structure: StructureParts, member: Member) -> bool:
+    """Whether a section has axes of its own; one that is not there is refused elsewhere."""
+    section = structure.sections.get(member.section)
+    return section is not None and section.type != "circular_tube"
 
 
 def across_plane(structure: StructureParts, normal: Floats) -> str | None:

@@ -9,23 +9,33 @@ import pytest
 
 from crumple.structure import Structure, placed_hinges
 from crumple.structure.bending import planar
+from crumple.structure.hinges.elastic_members import joint_stations
 
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "density": 7850.0, "yield_stress": 488e6}
 TUBE = {"type": "rectangular_tube", "width": 0.05, "depth": 0.025, "thickness": 0.00265}
 
+ROUND = {"type": "circular_tube", "diameter": 0.05, "thickness": 0.002}
 
-def cantilever(roll: float = 0.0, axis: str | None = None, **motion: Any) -> Structure:
+
+def cantilever(
+    roll: float = 0.0,
+    axis: str | None = None,
+    section: dict[str, Any] | None = None,
+    automatic: bool = False,
+    **motion: Any,
+) -> Structure:
     hinge = {"name": "root", "at": "root"} | ({"axis": axis} if axis else {})
+    hinges = {"hinges": "auto", "elastic": 4} if automatic else {"hinges": [hinge]}
     member = {
         "nodes": ("root", "tip"),
         "section": "tube",
         "material": "steel",
         "roll": roll,
-        "hinges": [hinge],
+        **hinges,
     }
     return Structure(
         materials={"steel": STEEL},
-        sections={"tube": TUBE},
+        sections={"tube": section or TUBE},
         nodes={"root": (0.0, 0.0, 0.0), "tip": (1.0, 0.0, 0.0)},
         members={"tube": member},
         supports={"clamp": {"node": "root", "fix": "all"}},
@@ -84,6 +94,23 @@ def test_a_frame_bends_in_its_plane_whatever_moves_it() -> None:
     np.testing.assert_allclose(np.abs(placed.direction), (0.0, 1.0, 0.0), atol=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("section", "turn", "flat"),
+    [(TUBE, 27.0, False), (TUBE, 0.6, False), (TUBE, 0.4, True), (TUBE, 90.0, True), (ROUND, 27.0, True)],
+)
+def test_a_section_at_an_angle_to_the_plane_also_bends_across_it(
+    section: dict[str, Any], turn: float, flat: bool
+) -> None:
+    """Automatic hinges then turn about both axes, and elastic members bend about both."""
+    pushed = (0.0, np.sin(np.radians(turn)), np.cos(np.radians(turn)))
+    arm = cantilever(initial_velocity=[{"translation": pushed}], section=section, automatic=True)
+    assert planar(arm) == flat
+    (hinge,) = [one for one in placed_hinges(arm) if one.name == "tube-root"]
+    assert (hinge.spatial is None) == flat
+    bends = [axis for axis in ("y", "z") if joint_stations(arm, "tube", axis, (0.0,))]
+    assert len(bends) == (1 if flat else 2)
+
+
 def test_looking_spoils_neither_comparison_nor_copies() -> None:
     one, two = cantilever(gravity=(0, 0, -9.81)), cantilever(gravity=(0, 0, -9.81))
     assert axis_of(one) == "y"
@@ -107,9 +134,6 @@ def knee(section: dict[str, Any], turn: float, digits: int, **motion: Any) -> St
     return Structure(
         materials={"steel": STEEL}, sections={"tube": section}, nodes=nodes, members=members, **rest
     )
-
-
-ROUND = {"type": "circular_tube", "diameter": 0.05, "thickness": 0.002}
 
 
 @pytest.mark.parametrize("section", [TUBE, ROUND], ids=["rectangular", "round"])
