@@ -21,8 +21,9 @@ from crumple.registry.refusal import refuse
 from crumple.structure.keys.time_function import AngleFunction, LengthFunction
 from crumple.structure.schema.spec import Name, Spec, type_tag
 
-SLANT = 1e-9
-"""Cosine between two directions below which they are at right angles but for rounding."""
+SLANT = 1e-3
+"""Share of a vector at an angle to where it should point that is taken for rounding of the input, and left
+out: directions and velocities with four digits err by 1e-4."""
 
 
 class Travel(Spec):
@@ -120,13 +121,17 @@ class Obstacle(Spec):
         if direction is None:
             todo = "add 'guide', for example [1, 0, 0]"
             refuse("the direction in which the mass moves is not given", key="mass", todo=todo)
-        across = np.cross(direction, self.velocity)
-        if float(np.linalg.norm(across)) > SLANT * float(np.linalg.norm(self.velocity)):
+        along = float(direction @ self.velocity) * direction
+        if float(np.linalg.norm(self.velocity - along)) > SLANT * float(np.linalg.norm(self.velocity)):
+            todo = "give its part along the guide, or turn the guide"
             refuse(
-                "the velocity is perpendicular to the guide",
+                "the velocity is at an angle to the guide",
                 key="velocity",
                 allowed="a velocity along 'guide'",
+                todo=todo,
             )
+        if self.guide is not None:
+            object.__setattr__(self, "velocity", tuple(along.tolist()))
         return self
 
 
@@ -146,8 +151,9 @@ class PlaneObstacle(Obstacle):
         _refuse_zero("normal", self.normal)
         if self.edge is not None:
             _refuse_zero("edge", self.edge)
-            size = float(np.linalg.norm(self.normal) * np.linalg.norm(self.edge))
-            if abs(float(np.dot(self.normal, self.edge))) > SLANT * size:
+            normal, edge = np.asarray(self.normal), np.asarray(self.edge)
+            slant = float(normal @ edge)
+            if abs(slant) > SLANT * float(np.linalg.norm(normal) * np.linalg.norm(edge)):
                 todo = "turn one of them"
                 refuse(
                     "the direction of the edge is not perpendicular to the normal",
@@ -155,6 +161,8 @@ class PlaneObstacle(Obstacle):
                     allowed="at right angles to 'normal'",
                     todo=todo,
                 )
+            square = edge - slant / float(normal @ normal) * normal
+            object.__setattr__(self, "edge", tuple(square.tolist()))
         return self
 
     def _across(self) -> Direction:

@@ -73,7 +73,7 @@ WRONG = {
     "slanted": (
         {**FLOOR, "mass": 1, "guide": (0, 0, 1), "velocity": (1, 0, 0)},
         "velocity",
-        "perpendicular to the guide",
+        "at an angle to the guide",
     ),
     "elastic beyond one": ({**BALL, "restitution": 1.5}, "restitution", "out of range"),
     "nothing to touch": ({**BALL, "members": ()}, "members", "no member can touch it"),
@@ -81,6 +81,16 @@ WRONG = {
     "node inside": ({**BALL, "point": (1.05, 0, 0)}, "", "'tip' starts inside"),
     "jump": ({**BALL, "motion": {"z": {"constant": 0.1}}}, "motion.z", "starts with a jump"),
 }
+
+
+def test_directions_that_were_rounded_are_taken_as_meant(keys):
+    turn = np.array([0.0, np.sin(0.35), np.cos(0.35)])
+    ram = {**BALL, "mass": 1, "guide": tuple(turn.round(4)), "velocity": tuple((7.123 * turn).round(3))}
+    ditch = {**FLOOR, "normal": tuple(turn.round(4)), "edge": (0, *np.array([turn[2], -turn[1]]).round(3))}
+    ram, ditch = Structure(**keys, obstacles={"ram": ram, "ditch": ditch}).obstacles.values()
+    np.testing.assert_allclose(np.cross(ram.velocity, ram.guide), 0.0, atol=1e-15)
+    np.testing.assert_allclose(np.linalg.norm(ram.velocity), 7.123, rtol=1e-4)
+    np.testing.assert_allclose(np.dot(ditch.normal, ditch.edge), 0.0, atol=1e-15)
 
 
 @pytest.mark.parametrize("name", WRONG)
