@@ -148,8 +148,9 @@ def _tips(outline: Floats, inset: float, across: Floats, axis: Floats, others: l
         meeting = (-(arms @ planes.T) / (planes @ axis)).max(axis=1)
         return np.asarray(np.maximum(meeting, -np.linalg.norm(arms, axis=1)))
 
-    # the line that starts first may lie between the directions; of equal ones the first in this order
-    first = outline[int(np.rint(starts(outline) / inset).argmin())]
+    # the lines that start first may lie between the directions; all of equal ones, for mirror images
+    start = starts(outline)
+    first = outline[start <= start.min() + inset]
     points = np.vstack([_face_corners(outline, inset), _moved_in(first, outline, inset)])
     start = starts(points)
     kept = start < -LEAST_TIP * np.linalg.norm(points, axis=1)

@@ -93,3 +93,22 @@ def test_a_branch_at_right_angles_has_no_tips():
 def test_members_with_a_joint_at_their_node_have_no_tips():
     pin = {"pin": {"type": "revolute", "node": "b", "member": "ab", "axis": (0.0, 1.0, 0.0)}}
     assert not at_corner(joints=pin)
+
+
+def test_tips_of_mirror_images_are_mirror_images():
+    """Lips of a hat end nearly in the mitre's plane: which of their corners were used was left to rounding."""
+    hat = {"type": "closed_hat", "width": 0.05, "depth": 0.05, "flange": 0.015, "thickness": 0.0015}
+    nodes = {"a": (0.0, -0.35, 0.0), "b": (0.0, 0.35, 0.0), "c": (0.55, -0.3, 0.06), "d": (0.55, 0.3, 0.06)}
+    members = {"ab": member("a", "b")} | {
+        first + second: member(first, second, section="hat") for first, second in ("ac", "bd")
+    }
+    sections = {"tube": {"type": "rectangular_tube", "width": 0.05, "depth": 0.04, "thickness": 0.002}}
+    whole = structure(nodes=nodes, members=members, sections=sections | {"hat": hat}, supports={})
+    places = np.array(
+        [ball.first for ball, _, free in end_corners(whole, link(whole).pieces) if free is None]
+    )
+    left, right = (places[side * places[:, 1] > 0.0] for side in (-1.0, 1.0))
+    assert len(left) > 3
+    apart = np.linalg.norm(left[:, None] * [1.0, -1.0, 1.0] - right, axis=2)
+    assert apart.min(axis=1).max() < 1e-12
+    assert apart.min(axis=0).max() < 1e-12
