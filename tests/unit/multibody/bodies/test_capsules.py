@@ -96,7 +96,7 @@ def test_members_with_a_joint_at_their_node_have_no_tips():
 
 
 def test_tips_of_mirror_images_are_mirror_images():
-    """Lips of a hat end nearly in the mitre's plane: which of their corners were used was left to rounding."""
+    """Lips of a hat end nearly in the mitre plane: which of their corners were used was left to rounding."""
     hat = {"type": "closed_hat", "width": 0.05, "depth": 0.05, "flange": 0.015, "thickness": 0.0015}
     nodes = {"a": (0.0, -0.35, 0.0), "b": (0.0, 0.35, 0.0), "c": (0.55, -0.3, 0.06), "d": (0.55, 0.3, 0.06)}
     members = {"ab": member("a", "b")} | {
