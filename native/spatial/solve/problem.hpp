@@ -19,14 +19,17 @@ namespace crumple::spatial {
 // of equilibrium does not depend on the steps.  Smaller values need more steps if loads rotate with the structure; larger ones become
 // noticeable.
 constexpr double drag = 0.1;
-// Weight of the end of a quasi-static step in the moments of elastic hinges: 2/3 of the error of a moment is left after each step.
-constexpr double still_weight = 0.6;
+// Weight of the end of a quasi-static step in the moments of elastic hinges: 2/3 of the error of a moment is left after each step.  Where
+// it is a step from a state out of balance, the end has all of the weight: no error is left, and its size does not follow the length of the
+// step, so that steps would shrink without limit.
+constexpr double still_weight = 0.6, settling_weight = 1;
 // Smallest share of the inertia, for very short steps: less would be lost in rounding.
 constexpr double least_inertia = 1e-8;
 
 struct Stage {
     bool quasi_static = false;
     std::vector<DriveStage> drives;
+    bool settling = false;  // the next steps begin out of balance, as at its start or beside a kink
 };
 
 struct Problem {
@@ -56,7 +59,7 @@ struct Problem {
     // share of a change of forces that is followed in a time; in quasi-static stages, and where all vibration is resolved, all of it
     double followed(double time) const { return stage.quasi_static ? 1 : 1 - std::exp(-time * model.resolved_frequency); }
     // weight of the end of a step in the moments of elastic hinges, see `hinge::Span`
-    double end_weight() const { return stage.quasi_static ? still_weight : 0.5; }
+    double end_weight() const { return !stage.quasi_static ? 0.5 : stage.settling ? settling_weight : still_weight; }
     // factor of a load in a step from a state: its mean, in quasi-static stages with the weight of elastic moments
     double factor_of(const Load& load, const State& s, double h) const;
     // share of the true inertia that acts in this step
