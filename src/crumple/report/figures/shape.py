@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import LineCollection, PathCollection, PolyCollection
 from matplotlib.colors import to_rgb
+from matplotlib.path import Path
 from numpy.typing import NDArray
 
 from crumple.numeric.arrays import Floats
@@ -201,41 +202,49 @@ def draw_walls(
     corners: Any = flat[quads]  # an array is taken whole, which is quick; the annotations require a list
     # walls seen edge-on have nothing to fill
     seen = np.flatnonzero(np.abs(facing) > 1e-6)
-    order = seen[np.argsort(view.depth(centres[seen]), kind="stable")]
+    front = facing > 1e-9
+    a, b = surface.sides[:, 0], surface.sides[:, 1]
+    shown = (front[a] | front[b]) & (surface.sharp | (front[a] != front[b]))
+    edges = _joined(flat[surface.edges[shown]])
     if state is None:
-        axes.add_collection(
-            PolyCollection(
-                corners[seen],
-                facecolors=_GHOST,
-                edgecolors=_GHOST,
-                linewidths=0.4,
-                rasterized=raster,
-                zorder=1,
-            ),
-            autolim=False,
-        )
+        paint: Any = {"facecolors": (_GHOST, "none"), "edgecolors": ("none", _GHOST), "linewidths": 0.4}
+        ghost = PathCollection([_area(corners[seen]), edges], rasterized=raster, zorder=1, **paint)
+        axes.add_collection(ghost, autolim=False)
         return
+    order = seen[np.argsort(view.depth(centres[seen]), kind="stable")]
     light = np.abs(normals @ (0.75 * view.towards + 0.6 * view.up))
     shade = np.clip(0.62 + 0.5 * light, 0.0, 1.15)[:, None]
     top = largest_strain(states)
     base = wall_colours(states, state, top) if top else np.tile(_WALL, (len(quads), 1))
     colours = np.clip(1.0 - (1.0 - base) * (1.9 - shade), 0.0, 1.0)
+    # a viewer smooths the edges of walls, and would show the gaps between them; an image is drawn without,
+    # where lines around the walls would take most of the time
     walls = PolyCollection(
         corners[order],
         facecolors=colours[order],
-        edgecolors=colours[order],
+        edgecolors="none" if raster else colours[order],
         linewidths=0.3,
+        antialiaseds=not raster,
         rasterized=raster,
         zorder=2,
     )
+    paint = {"facecolors": "none", "edgecolors": "#3c5268", "linewidths": 0.5}
     axes.add_collection(walls, autolim=False)
-    front = facing > 1e-9
-    a, b = surface.sides[:, 0], surface.sides[:, 1]
-    shown = (front[a] | front[b]) & (surface.sharp | (front[a] != front[b]))
-    outline = LineCollection(
-        list(flat[surface.edges[shown]]), colors="#3c5268", linewidths=0.5, rasterized=raster, zorder=3
-    )
-    axes.add_collection(outline, autolim=False)
+    axes.add_collection(PathCollection([edges], rasterized=raster, zorder=3, **paint), autolim=False)
+
+
+def _joined(lines: Floats) -> Path:
+    """Lines from a point to another, (n, 2, 2), as one path: drawn at once, and short in the file."""
+    return Path(lines.reshape(-1, 2), np.tile([Path.MOVETO, Path.LINETO], len(lines)))
+
+
+def _area(corners: Floats) -> Path:
+    """Everything that quadrilaterals cover, (n, 4, 2), as one path; all run round in the same sense."""
+    across, along = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+    back = across[:, 0] * along[:, 1] < across[:, 1] * along[:, 0]
+    rings = np.where(back[:, None, None], corners[:, ::-1], corners)
+    closed = np.concatenate([rings, rings[:, :1]], axis=1).reshape(-1, 2)
+    return Path(closed, np.tile([Path.MOVETO, *[Path.LINETO] * 3, Path.CLOSEPOLY], len(rings)))
 
 
 class Neighbours:
