@@ -80,6 +80,15 @@ def test_the_dent_takes_the_energy_of_a_thrown_obstacle(section, obstacle, depth
     assert result["obstacle.pole.dent"].max() == pytest.approx(dent.depth, rel=1e-6)
 
 
+@pytest.mark.parametrize(("faster", "deep"), [(1.0, False), (2.5, True)])
+def test_a_dent_beyond_the_comparison_with_shells_is_a_caution(faster, deep):
+    thrown = THROWN.replace(f"-{SPEED:g} m/s", f"-{faster * SPEED:g} m/s")
+    result = crumple.solve(analysis_of(SQUARE, f"{POLE}, {thrown}"))
+    (dent,) = result.dents
+    assert (dent.depth > 0.5 * 60e-3) == deep
+    assert [caution.limit for caution in result.cautions if caution.code == "deep_dent"] == [30e-3] * deep
+
+
 def test_a_dent_counts_from_the_position_at_the_start():
     """A pole that overlaps the tube by 1 mm is in contact: the overlap is no dent, and takes no energy."""
     inside = POLE.replace("81 mm", "79 mm")

@@ -50,8 +50,11 @@ CRUSHED = 0.01
 says so."""
 USED_UP = 0.95
 """Depth to which an end crumpled over the largest side of its section, above which it cannot go on."""
+DEEP = 0.5
+"""Depth of a dent over that of its section up to which laws of dents were compared with shells."""
 STRUCK = 0.5
-"""The same share, above which the mean force of the impact is compared with the force that folds a member."""
+"""Energy lost in rigid impacts relative to the energy input, above which the mean force of the impact is
+compared with the force that folds a member."""
 
 
 def energy_put_in(solved: Solved) -> float:
@@ -86,6 +89,7 @@ def physics_cautions(structure: Structure, solved: Solved) -> tuple[Caution, ...
         *closed_crush_zones(structure, solved),
         *crushed_walls(structure, solved),
         *crumpled_ends(structure, solved),
+        *deep_dents(solved),
     )
 
 
@@ -344,6 +348,23 @@ def crumpled_ends(structure: Structure, solved: Solved) -> Iterator[Caution]:
                 f"on obstacle {end.obstacle}, about the largest side of its section: from there on its "
                 "contact is rigid; a shell run shows how it goes on.",
             )
+
+
+def deep_dents(solved: Solved) -> Iterator[Caution]:
+    """Obstacles that press tubes flatter than the laws of dents were compared for."""
+    deep = [dent for dent in solved.dents if dent.depth.max(initial=0.0) > DEEP * dent.tube.depth]
+    for obstacle in dict.fromkeys(dent.obstacle for dent in deep):
+        dents = [dent for dent in deep if dent.obstacle == obstacle]
+        depth = max(float(dent.depth.max()) for dent in dents)
+        least = min(dent.tube.depth for dent in dents)
+        members = list(dict.fromkeys(dent.tube.member for dent in dents))
+        text = (
+            f"Obstacle {obstacle} dents {named('member', members)} by {format_quantity(depth, 'm', 3)}, "
+            f"{depth / least:.0%} of the depth of the section: the laws of dents were compared with shells "
+            f"up to {DEEP:.0%} of it. Solve with shells."
+        )
+        for member in members:
+            yield Caution("deep_dent", depth, DEEP * least, "m", f"member {member}", text)
 
 
 def _span(values: list[float]) -> str:
