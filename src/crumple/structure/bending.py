@@ -12,15 +12,13 @@ from typing import Literal
 import numpy as np
 
 from crumple.numeric.arrays import Floats
-from crumple.structure.geometry import FLAT, LEVEL
+from crumple.structure.geometry import FLAT, LEVEL, SQUARE
 from crumple.structure.keys.member import Member
 from crumple.structure.keys.obstacles import CylinderObstacle, Obstacle, PlaneObstacle
 from crumple.structure.parts import StructureParts
 
 PLANAR = ("planar", "")
 """Key of the answer of `planar` among the structure's derived data."""
-OFF_AXIS = 0.5
-"""Angle [deg] between a section's axis and the normal of the plane above which bending across counts."""
 
 
 def bending_axis(structure: StructureParts, member: str) -> Literal["y", "z"]:
@@ -57,8 +55,11 @@ def planar(structure: StructureParts) -> bool:
 
 
 def _turned(structure: StructureParts, normal: Floats) -> bool:
-    """Whether a section has neither axis along the normal of a plane; round ones have one along any."""
-    least = np.cos(np.radians(OFF_AXIS))
+    """Whether a section has neither axis along the normal of a plane; round ones have one along any.
+
+    Those within `SQUARE` of it were turned into the plane.
+    """
+    least = np.cos(SQUARE)
     return any(
         structure.has_line(name)
         and _axes_matter(structure, member)

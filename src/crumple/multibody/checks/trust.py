@@ -20,7 +20,6 @@ from crumple.multibody.checks.overlap import overlap_warnings
 from crumple.multibody.checks.physics import energy_put_in
 from crumple.result import HingeSummary
 from crumple.structure import PlacedHinge, Structure, dented_tubes
-from crumple.structure.bending import OFF_AXIS
 from crumple.text.names import listed
 
 LOST_SHARE = 0.05
@@ -42,6 +41,8 @@ LOCKED = (
     " If members must change their length for it, as in a triangle, give their hinges 'axial: true', or "
     "solve with shells."
 )
+OFF_AXIS = 0.5
+"""Angle [deg] between a hinge's axis and the normal of the plane above which bending across counts."""
 SOFTENING = {
     SofteningVariable.PEAK: "the largest plastic rotation of both senses (bent back, it stays weak)",
     SofteningVariable.ROTATION: "the present plastic rotation (bent back, it regains its strength)",
