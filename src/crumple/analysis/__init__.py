@@ -19,7 +19,7 @@ from crumple.analysis.input_file import (
     loads,
 )
 from crumple.analysis.schema import json_schema
-from crumple.analysis.solve import FIDELITIES, solve, with_law_range, with_modes, with_range_and_modes
+from crumple.analysis.solve import FIDELITIES, solve, with_law_range, with_modes
 
 __all__ = [
     "FIDELITIES",
@@ -39,5 +39,4 @@ __all__ = [
     "solve_with_frames",
     "with_law_range",
     "with_modes",
-    "with_range_and_modes",
 ]

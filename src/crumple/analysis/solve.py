@@ -18,7 +18,7 @@ from crumple.version import __version__
 
 if TYPE_CHECKING:
     from crumple.multibody import Run
-    from crumple.result import Modes, Result
+    from crumple.result import Result
     from crumple.shell import LongRun
 
 FIDELITIES = ("multibody", "shell")
@@ -123,29 +123,9 @@ def with_modes(
     Several modes are a caution.  Parameters as in `with_law_range` and `solve`.
     """
     from crumple.multibody import modes  # noqa: PLC0415
-
-    return _moded(result, modes(analysis.structure, run_of(analysis), result, threads, progress, cancel))
-
-
-def with_range_and_modes(
-    result: Result,
-    analysis: Analysis,
-    threads: int = 1,
-    progress: Callable[[float], None] | None = None,
-    cancel: Callable[[], bool] | None = None,
-) -> Result:
-    """`with_modes` of `with_law_range`, in less time: runs that both need are solved once."""
-    from crumple.multibody import range_and_modes  # noqa: PLC0415
-
-    run = run_of(analysis)
-    ranged, found = range_and_modes(analysis.structure, run, result, threads, progress, cancel)
-    return _moded(replace(result, law_range=ranged), found)
-
-
-def _moded(result: Result, found: Modes | None) -> Result:
-    """The result with its modes; several are a caution."""
     from crumple.result import Caution  # noqa: PLC0415
 
+    found = modes(analysis.structure, run_of(analysis), result, threads, progress, cancel)
     if found is None or found.unique:
         return replace(result, modes=found)
     caution = Caution("modes", float(len(found.modes)), 1.0, "1", "", found.sentence)

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from crumple.cli.console.beside import Moded, Uncertain, with_neighbours, with_scatter
+from crumple.cli.console.beside import Moded, Uncertain, with_its_modes, with_scatter
 from crumple.cli.console.fidelity import Fidelity
-from crumple.cli.console.laws import Freeze, Laws, law_lines, range_lines, with_store
+from crumple.cli.console.laws import Freeze, Laws, law_lines, range_lines, with_range, with_store
 from crumple.numeric.ranking import largest_first
 
 if TYPE_CHECKING:
@@ -170,10 +170,10 @@ def _solve(
         if not result.time.size:
             raise CancelledError(result.reason)
         quick, sound = result.solve_seconds < QUICK, not is_shell and result.status.ok
-        if sound:
-            ranged, moded = (quick if wanted is None else wanted for wanted in also[:2])
-            cores = threads or available_cores()
-            result = with_neighbours(result, source, cores, cancel, ranged=ranged, moded=moded)
+        if sound and (quick if also[0] is None else also[0]):
+            result = with_range(result, source, threads or available_cores(), cancel)
+        if sound and (quick if also[1] is None else also[1]):
+            result = with_its_modes(result, source, threads or available_cores(), cancel)
         if also[2] and sound:
             result = with_scatter(result, source, threads or available_cores(), cancel)
         # still inside: Ctrl-C while figures are drawn must not lose the result

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crumple.analysis import Analysis, input_hash, solve, with_modes, with_range_and_modes
+from crumple.analysis import Analysis, input_hash, solve, with_law_range, with_modes
 from crumple.comparison.comparing import compare
 from crumple.comparison.comparison import Comparison, Timing
 from crumple.comparison.rating.curve_file import CurveFile
@@ -120,7 +120,7 @@ def _with_neighbours(result: Result, analysis: Analysis, threads: int, cancel: C
     """A multibody result with its range from the bands of the laws, and the modes of an impact."""
     # some structures have no variants; what is solved can be compared without a range
     with suppress(InputError):
-        return with_range_and_modes(result, analysis, threads, cancel=cancel)
+        result = with_law_range(result, analysis, threads, cancel)
     return with_modes(result, analysis, threads, cancel=cancel)
 
 

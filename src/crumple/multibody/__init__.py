@@ -19,7 +19,6 @@ from crumple.multibody.solve import solve_multibody, solver_of
 from crumple.multibody.timing import least_seconds, stepping_seconds
 from crumple.multibody.variants.law_range import law_factors, law_range
 from crumple.multibody.variants.modes import modes
-from crumple.multibody.variants.nearby import range_and_modes
 from crumple.multibody.variants.sensitivity import Sensitivities, sensitivities
 from crumple.multibody.variants.variants import OTHER_PARTS, VariantTable, solve_variants
 
@@ -44,7 +43,6 @@ __all__ = [
     "modes",
     "notes",
     "planar_initial_motion",
-    "range_and_modes",
     "sensitivities",
     "solve_multibody",
     "solve_variants",

@@ -226,9 +226,10 @@ def test_a_run_is_kept_if_the_runs_beside_it_are_stopped(command, tmp_path, monk
     def stopped(*_, **__):
         raise CancelledError("cancelled while the variants were prepared: none was solved")
 
-    monkeypatch.setattr("crumple.analysis.with_range_and_modes", stopped)
+    monkeypatch.setattr("crumple.analysis.with_law_range", stopped)
+    monkeypatch.setattr("crumple.analysis.with_modes", stopped)
     monkeypatch.setattr("crumple.multibody.variants.variants._cases", stopped)
     code, _, errors = command("run", path, "--out", tmp_path / "out", "--law-range", "--modes")
     assert code == 0
-    assert errors.count("Stopped: ") == 2
+    assert errors.count("Stopped: ") == 3
     assert json.loads((tmp_path / "out" / "summary.json").read_text())["ok"]

@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from crumple.cli.console.laws import with_range
-
 if TYPE_CHECKING:
     from crumple.analysis import LoadedInput
     from crumple.result import Result
@@ -48,41 +46,6 @@ def with_scatter(result: Result, source: LoadedInput, threads: int, cancel: Call
     except InputError as error:
         problem = source.with_lines(error).problems[0]
         typer.echo(f"The scatter is not known: {problem.what} ({problem.where})", err=True)
-        return result
-
-
-def with_neighbours(
-    result: Result,
-    source: LoadedInput,
-    threads: int,
-    cancel: Callable[[], bool],
-    *,
-    ranged: bool,
-    moded: bool,
-) -> Result:
-    """The result with its range from the laws and the modes of collapse, as far as wanted."""
-    if ranged and moded:
-        return _with_both(result, source, threads, cancel)
-    if ranged:
-        return with_range(result, source, threads, cancel)
-    return with_its_modes(result, source, threads, cancel) if moded else result
-
-
-def _with_both(result: Result, source: LoadedInput, threads: int, cancel: Callable[[], bool]) -> Result:
-    """Both in one call; what is solved is kept if they cannot be computed."""
-    from crumple.analysis import with_range_and_modes
-    from crumple.cli.console.progress import progress_bar
-    from crumple.errors import CancelledError, InputError
-
-    try:
-        with progress_bar("solving range and modes") as progress:
-            return with_range_and_modes(result, source.analysis, threads, progress, cancel)
-    except CancelledError:
-        typer.echo("Stopped: the range from the laws and the modes of collapse are not known", err=True)
-        return result
-    except InputError as error:
-        what = error.problems[0].what
-        typer.echo(f"The range from the laws and the modes of collapse are not known: {what}", err=True)
         return result
 
 

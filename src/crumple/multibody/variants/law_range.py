@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 
 from crumple.multibody.run import Cancel, Run
-from crumple.multibody.variants.variants import VariantTable, solve_variants
+from crumple.multibody.variants.variants import solve_variants
 from crumple.numeric.arrays import Floats
 from crumple.result.nearby import LawRange
 from crumple.result.result import Result
@@ -52,20 +52,10 @@ def law_range(
     ----------
     docs/theory/measured_curves.md.  Verified in tests/unit/multibody/variants/test_law_range.py.
     """
-    factors = law_factors(with_elastic_members(structure, run.settings, run.duration))
-    if not factors[0]:
+    bands, without, factors = law_factors(with_elastic_members(structure, run.settings, run.duration))
+    if not bands:
         return None
-    return range_of(solve_variants(structure, run, factors[2], threads, cancel=cancel), factors, run, nominal)
-
-
-def range_of(
-    table: VariantTable,
-    factors: tuple[dict[str, float], tuple[str, ...], dict[str, Floats]],
-    run: Run,
-    nominal: Result,
-) -> LawRange:
-    """Range from the solved runs of `law_factors`."""
-    bands, without, _ = factors
+    table = solve_variants(structure, run, factors, threads, cancel=cancel)
     good = np.array([status.ok for status in table.status])
     failed = tuple(name for name, ok in zip(CASES, good.tolist(), strict=True) if not ok)
     known = _known(run, nominal)

@@ -7,7 +7,7 @@ largest rotation of all runs, and by more than `ROOM`.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -75,35 +75,14 @@ def modes(
     docs/theory/modes.md.  Verified in tests/unit/multibody/variants/test_modes.py.
     """
     structure = with_elastic_members(structure, run.settings, run.duration)
-    runs = mode_runs(structure, run)
-    if not runs:
-        return None
-    table = solve_variants(structure, run, columns_of(structure, runs.values()), threads, progress, cancel)
-    return modes_of(table, runs, structure, run, result, threads=threads, cancel=cancel)
-
-
-def mode_runs(structure: Structure, run: Run) -> dict[str, Changes]:
-    """Changes of every run beside that of a structure with its elastic members; none where not asked for."""
     asked = run.settings.mechanism_check
     unasked = asked == "off" or (asked == "auto" and not any_automatic(structure))
-    if unasked or len(plastic_hinges(structure)) < 2 or not is_impact(structure, run):
-        return {}
-    changes = {**_capacities(structure), **_friction(structure), **contact_points(structure, run)}
-    return changes | _stiffness(structure, run)
-
-
-def modes_of(
-    table: VariantTable,
-    runs: Mapping[str, Changes],
-    structure: Structure,
-    run: Run,
-    result: Result,
-    *,
-    threads: int | None,
-    cancel: Cancel | None,
-) -> Modes:
-    """Modes from the solved `mode_runs`."""
     names = [hinge.name for hinge in plastic_hinges(structure)]
+    if unasked or len(names) < 2 or not is_impact(structure, run):
+        return None
+    runs = {**_capacities(structure), **_friction(structure), **contact_points(structure, run)}
+    runs |= _stiffness(structure, run)
+    table = solve_variants(structure, run, _columns(structure, runs), threads, progress, cancel)
     given = {name: float(result[f"hinge.{name}.plastic_rotation"][-1]) for name in names}
     turned: dict[str, dict[str, float] | None] = {RESULT: given}
     for i, (name, changes) in enumerate(runs.items()):
@@ -166,13 +145,13 @@ def grouped(names: list[str], ended: Mapping[str, Floats]) -> tuple[Mode, ...]:
     return tuple(found)
 
 
-def columns_of(structure: Structure, runs: Collection[Changes]) -> dict[str, Floats]:
+def _columns(structure: Structure, runs: Mapping[str, Changes]) -> dict[str, Floats]:
     """One value per run of everything that any of them changes."""
-    paths = dict.fromkeys(path for changes in runs for path in changes)
+    paths = dict.fromkeys(path for changes in runs.values() for path in changes)
     columns = {}
     for path in paths:
         rest = 1.0 if path.startswith("hinges.") else value_at(structure, path)
-        columns[path] = np.array([changes.get(path, rest) for changes in runs])
+        columns[path] = np.array([changes.get(path, rest) for changes in runs.values()])
     return columns
 
 

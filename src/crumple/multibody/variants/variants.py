@@ -97,15 +97,6 @@ class VariantTable:
         """A quantity or a parameter by name."""
         return self.quantities[name] if name in self.quantities else self.parameters[name]
 
-    def rows(self, numbers: Sequence[int]) -> VariantTable:
-        """Final values of some of the variants."""
-        parameters, quantities = (
-            {name: column[list(numbers)] for name, column in part.items()}
-            for part in (self.parameters, self.quantities)
-        )
-        status = tuple(self.status[i] for i in numbers)
-        return VariantTable(parameters, quantities, status, tuple(self.reason[i] for i in numbers))
-
     def to_pandas(self) -> pd.DataFrame:
         """One row per variant in SI units: parameters, quantities, status and reason.
 
