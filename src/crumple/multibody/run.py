@@ -20,6 +20,9 @@ CHECK_FACTOR = 4.0
 A run at the accuracy asked for follows, without outputs on the way, so that its steps are those which the
 error control chooses; the difference bounds the error of the answer."""
 
+CANNOT_GO_ON = frozenset({Outcome.STEP_COLLAPSED, Outcome.STALLED, Outcome.NOT_FINITE})
+"""Ends of a run that is then repeated, aside of dead centres or with walls that crush, or with rigid bars."""
+
 STATUS = {
     Outcome.COMPLETE: Status.COMPLETE,
     Outcome.STEP_COLLAPSED: Status.STEP_COLLAPSED,

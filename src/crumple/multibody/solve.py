@@ -32,7 +32,16 @@ from crumple.multibody.checks.overlap import obstacle_overlap_warnings
 from crumple.multibody.checks.physics import physics_cautions
 from crumple.multibody.kernel_choice import why_spatial
 from crumple.multibody.planar.solver import TreeSolver
-from crumple.multibody.run import CHECK_FACTOR, Cancel, Progress, Run, outcome_status, picture_times, poll_of
+from crumple.multibody.run import (
+    CANNOT_GO_ON,
+    CHECK_FACTOR,
+    Cancel,
+    Progress,
+    Run,
+    outcome_status,
+    picture_times,
+    poll_of,
+)
 from crumple.multibody.spatial.solver import SpatialSolver
 from crumple.numeric.arrays import Floats
 from crumple.result import Provenance, Result, missing_pictures, sentences
@@ -40,7 +49,7 @@ from crumple.structure import Structure, any_automatic, law_uses, placed_hinges,
 
 FORK = 0.05
 """Difference of the rotations of two runs over the largest one that accuracy alone hardly explains."""
-FAILED = frozenset({Outcome.STEP_COLLAPSED, Outcome.STALLED, Outcome.NOT_FINITE})
+FAILED = CANNOT_GO_ON
 """Ends of a run with members that bend after which rigid bars are tried."""
 CHECKED_FROM = 0.4
 """Share of the progress at which the runs with changed capacities begin, which are four coarse ones."""
@@ -128,7 +137,9 @@ def _with_rigid_bars(
     why = f"Members are rigid bars here: with members that bend the run ended early ({solved.reason})."
     cautions = tuple(replace(one, text=_without_bending(one.text)) for one in result.cautions)
     warnings = (why, *map(_without_bending, result.warnings))
-    return replace(result, cautions=cautions, warnings=warnings)
+    settings = {**result.provenance.settings, "members": "rigid"}
+    provenance = replace(result.provenance, settings=settings)
+    return replace(result, cautions=cautions, warnings=warnings, provenance=provenance)
 
 
 def _without_bending(text: str) -> str:

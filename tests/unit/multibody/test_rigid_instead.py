@@ -61,7 +61,11 @@ def test_members_that_were_asked_to_bend_do(ended):
 def test_ranges_and_modes_of_such_an_answer_are_found(ended):
     analysis = with_members("auto")
     result = with_modes(with_law_range(solve_analysis(analysis), analysis), analysis)
+    assert result.provenance.settings["members"] == "rigid"
     assert result.law_range is not None
+    assert result.law_range.failed == ()
+    hinge = result.hinges["corner-corner"]
+    assert result.law_range.cases["nominal"]["hinge.corner-corner.energy"] == hinge.energy
     assert result.modes is not None
 
 
