@@ -231,7 +231,7 @@ def _of_hinge(structure: Structure, hinge: PlacedHinge, summary: HingeSummary) -
         valid = math.degrees(law.validity.rotation_max)
         basis = law.validity.basis.replace("{", "{{").replace("}", "}}")
         found.append(f"{turned}; the law is valid up to {valid:.1f} deg only ({basis})")
-    normal = structure.bending_normal
+    normal = structure.normal_of(hinge.member)
     if normal is not None and not _bends_both_ways(hinge):
         off = math.degrees(math.acos(min(1.0, abs(float(hinge.direction @ np.asarray(normal))))))
         if off > OFF_AXIS:

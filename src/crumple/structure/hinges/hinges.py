@@ -347,7 +347,7 @@ def _placed(structure: StructureParts, place: HingePlace, shares: HingeShares) -
 def _direction(structure: StructureParts, place: HingePlace) -> Floats:
     """Axis of a hinge at the start; a round section has none of its own and takes the plane of bending's."""
     axis = structure.frame_of(place.member).axis(place.axis)
-    normal = structure.bending_normal
+    normal = structure.normal_of(place.member)
     if normal is None or structure.section_of(place.member).kind != "circular_tube":
         return axis
     across = np.array(normal)
