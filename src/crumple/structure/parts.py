@@ -241,9 +241,10 @@ class StructureParts(Spec):
         Parts that nothing connects do not decide for each other; one without a plane of its own has that of
         the whole structure.
         """
-        return self.kept.once("part normals", "", self._part_normals).get(member) or self.bending_normal
+        return self.part_normals.get(member) or self.bending_normal
 
-    def _part_normals(self) -> dict[str, Normal | None]:
+    @cached_property
+    def part_normals(self) -> dict[str, Normal | None]:
         """Normals of the parts by member, where there are several parts."""
         joined = {name: [*member.nodes] for name, member in self.members.items()}
         for weld, spots in self.spot_welds.items():
