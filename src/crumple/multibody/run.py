@@ -39,7 +39,8 @@ STATUS = {
 class Run:
     """Settings of a run: duration and output interval [s], outputs, factors on the capacities of hinges.
 
-    Without `checks` its error is not estimated, nor whether its mechanism is unique.
+    Without `checks` its error is not estimated, nor whether its mechanism is unique.  With `bending_tried`
+    members that bend ended an earlier run, so that nothing advises them.
     """
 
     duration: float
@@ -50,6 +51,7 @@ class Run:
     stages: tuple[Stage, ...] = ()
     capacities: Mapping[str, float] = field(default_factory=dict)
     checks: bool = True
+    bending_tried: bool = False
 
 
 def output_times(run: Run, *, ends_only: bool = False) -> Floats:

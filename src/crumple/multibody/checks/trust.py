@@ -188,7 +188,7 @@ def warnings(
         found.append(
             f"The bars are rigid, but the members could store up to {stored:.3g} J elastically "
             f"({_share(stored / total)}): rotations lack the elastic part and the plastic ones are "
-            f"too large{BEND}."
+            f"too large{'' if solved.bending_tried else BEND}."
         )
     found += _slowed(solved)
     if solved.forced:

@@ -176,7 +176,8 @@ class SpatialSolver:
             ended = end_reason(stage, conditions, records[-1])
             # a stage that was cancelled at its beginning has no output
             reached = float(records[-1].time[-1]) if len(records[-1].time) else begin
-            stages.append(StageSummary(stage.name, begin, reached, ended))
+            lasted = records[-1].ended_by < 0 and not np.isfinite(records[-1].lost_time)
+            stages.append(StageSummary(stage.name, begin, reached, ended, lasted))
             if records[-1].outcome is not Outcome.COMPLETE:
                 break
         record = with_held_moments(_joined(records), self.linkage, model, self._holding)
