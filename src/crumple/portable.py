@@ -72,6 +72,26 @@ def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
         restore()
 
 
+class TerminationError(KeyboardInterrupt):
+    """SIGTERM was received: it ends the program as Ctrl-C does."""
+
+
+@contextmanager
+def interrupt_on_termination() -> Iterator[None]:
+    """Raise `TerminationError` in the main thread at SIGTERM; a second one ends the program."""
+    previous = signal.getsignal(signal.SIGTERM)
+
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        signal.signal(signal.SIGTERM, previous)
+        raise TerminationError
+
+    signal.signal(signal.SIGTERM, interrupt)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, previous)
+
+
 def command_line(*words: object) -> str:
     """A command to be copied into a shell: words with blanks are quoted."""
     texts = [str(word) for word in words]

@@ -60,10 +60,10 @@ nb::dict to_dict(const EndValues& f, const Model& model, size_t n) {
 nb::dict solve(const std::vector<const Model*>& models, const InNumbers& model_of, double end, const Rows& velocity,
                const Rows& impulse, const Rows& capacity_scale, const Rows& load_scale, const Rows& bodies,
                const Rows& gravity, double accuracy, double minimum_step, double maximum_step, int threads,
-               nb::object poll, const std::vector<double>& times) {
+               nb::object poll, const std::vector<double>& times, int parts) {
     require_all(models);
     require_one_topology(models);
-    require_settings(accuracy, minimum_step, maximum_step);
+    require_settings(accuracy, minimum_step, maximum_step, parts);
     require(std::isfinite(end) && end > 0, "the end must come after the start");
     require_sample_times(times, end);
     const Model& first = *models.front();
@@ -82,7 +82,7 @@ nb::dict solve(const std::vector<const Model*>& models, const InNumbers& model_o
     v.bodies = rows(bodies, v.count, 4 * n, "bodies must have shape (variants, bodies, 4)");
     v.gravity = rows(gravity, v.count, 2, "gravity must have shape (variants, 2)");
     v.times = times;
-    const Settings settings{accuracy, minimum_step, maximum_step, 1};
+    const Settings settings{accuracy, minimum_step, maximum_step, parts};
     const EndValues end_values = unlocked(poll, [&](const auto& ask) { return solve_many(v, end, settings, threads, ask); });
     nb::dict found = to_dict(end_values, first, v.count);
     if (!times.empty()) found["samples"] = samples_of(end_values.samples, first, v.count * times.size());
@@ -95,7 +95,8 @@ void bind_batch(nb::module_& m) {
     m.def("solve_many", &solve, nb::arg("models"), nb::arg("model_of"), nb::arg("end"), nb::arg("velocity").none(),
           nb::arg("impulse").none(), nb::arg("capacity_scale").none(), nb::arg("load_scale").none(), nb::arg("bodies").none(),
           nb::arg("gravity").none(), nb::arg("accuracy"), nb::arg("minimum_step"), nb::arg("maximum_step"), nb::arg("threads"),
-          nb::arg("poll").none(), nb::arg("times") = std::vector<double>{}, "Solve every variant as one run would, on several threads.");
+          nb::arg("poll").none(), nb::arg("times") = std::vector<double>{}, nb::arg("parts") = 1,
+          "Solve every variant as one run would, on several threads.");
 }
 
 }  // namespace CRUMPLE_ARITHMETIC

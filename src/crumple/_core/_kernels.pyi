@@ -66,6 +66,7 @@ class _Planar:
         threads: int,
         poll: Callable[[float], bool] | None,
         times: Sequence[float] = (),
+        parts: int = 1,
     ) -> dict[str, Any]: ...
 
 class _Spatial:
@@ -125,6 +126,7 @@ class _Spatial:
         poll: Callable[[float], bool] | None,
         led: bool,
         times: Sequence[float] = (),
+        parts: int = 1,
     ) -> dict[str, Any]: ...
 
     HingeElement: Any

@@ -129,6 +129,17 @@ def each_array(record: Record, change: Callable[[Any], Any]) -> Record:
     return replace(record, **changed)  # type: ignore[type-var]
 
 
+def arrays_of(record: Any) -> list[Any]:
+    """The arrays of a record and of the records and mappings in it, in their order."""
+    if isinstance(record, np.ndarray):
+        return [record]
+    if isinstance(record, dict):
+        parts = list(record.values())
+    else:
+        parts = [getattr(record, field.name) for field in fields(record)] if is_dataclass(record) else []
+    return [array for part in parts for array in arrays_of(part)]
+
+
 def joined(parts: Sequence[Any]) -> Any:
     """Concatenation of arrays, or of records that contain arrays only."""
     if isinstance(parts[0], np.ndarray):

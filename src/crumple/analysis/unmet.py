@@ -14,8 +14,6 @@ from crumple.units import format_quantity
 
 UNITS = {"force": "N", "energy": "J", "displacement": "m", "distance": "m"}
 """Of the quantities of conditions."""
-BY_DURATION = ("after ", "its duration")
-"""How the reason of the end of such a stage starts."""
 
 
 def with_unmet(result: Result, stages: Sequence[Stage]) -> Result:
@@ -23,7 +21,7 @@ def with_unmet(result: Result, stages: Sequence[Stage]) -> Result:
     found = []
     for stage, summary in zip(stages, result.stages, strict=False):
         stopped = not result.status.ok and summary is result.stages[-1]
-        if stage.until and not stopped and summary.ended_by.startswith(BY_DURATION):
+        if stage.until and not stopped and summary.by_duration:
             missed = " and ".join(_missed(until, result, summary) for until in stage.until)
             found.append(f"Stage {stage.name} ended by its duration: {missed}.")
     return replace(result, warnings=(*result.warnings, *found)) if found else result

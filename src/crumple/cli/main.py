@@ -39,7 +39,7 @@ app = typer.Typer(
     help="Crash analysis at the concept stage for thin-walled structures.",
     epilog="Exit codes: 0 done; 1 a run ended without a reliable result; 2 the input, or the "
     "folder for the results, cannot be accepted; 3 a defect of Crumple; 130 ended by Ctrl-C "
-    "without a stored result.",
+    "without a stored result, 143 by SIGTERM.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,

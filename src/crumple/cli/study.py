@@ -102,15 +102,16 @@ def _executor(
 
 @contextmanager
 def _resumable(file: Path, folder: Path, *more: str) -> Iterator[None]:
-    """Say after Ctrl-C that rows are kept, and which command goes on."""
-    from crumple.errors import CancelledError
-    from crumple.portable import command_line
+    """Say after Ctrl-C or SIGTERM that rows are kept, and which command goes on."""
+    from crumple.portable import TerminationError, command_line, interrupt_on_termination
 
     try:
-        yield
-    except KeyboardInterrupt:
+        with interrupt_on_termination():
+            yield
+    except KeyboardInterrupt as stop:
         again = command_line("crumple", "study", file, "--out", folder, *more, "--resume")
-        raise CancelledError(f"Stopped; the rows so far are kept. Go on with: {again}") from None
+        typer.echo(f"Stopped; the rows so far are kept. Go on with: {again}", err=True)
+        raise typer.Exit(143 if isinstance(stop, TerminationError) else 130) from None
 
 
 def _part(

@@ -20,6 +20,9 @@ CHECK_FACTOR = 4.0
 A run at the accuracy asked for follows, without outputs on the way, so that its steps are those which the
 error control chooses; the difference bounds the error of the answer."""
 
+CANNOT_GO_ON = frozenset({Outcome.STEP_COLLAPSED, Outcome.STALLED, Outcome.NOT_FINITE})
+"""Ends of a run that is then repeated, aside of dead centres or with walls that crush, or with rigid bars."""
+
 STATUS = {
     Outcome.COMPLETE: Status.COMPLETE,
     Outcome.STEP_COLLAPSED: Status.STEP_COLLAPSED,
@@ -36,7 +39,8 @@ STATUS = {
 class Run:
     """Settings of a run: duration and output interval [s], outputs, factors on the capacities of hinges.
 
-    Without `checks` its error is not estimated, nor whether its mechanism is unique.
+    Without `checks` its error is not estimated, nor whether its mechanism is unique.  With `bending_tried`
+    members that bend ended an earlier run, so that nothing advises them.
     """
 
     duration: float
@@ -47,6 +51,7 @@ class Run:
     stages: tuple[Stage, ...] = ()
     capacities: Mapping[str, float] = field(default_factory=dict)
     checks: bool = True
+    bending_tried: bool = False
 
 
 def output_times(run: Run, *, ends_only: bool = False) -> Floats:

@@ -26,13 +26,22 @@ from crumple.multibody.answer.histories import (
 )
 from crumple.multibody.answer.shapes import refuse_pictures, states_of
 from crumple.multibody.answer.solved import HingeHistory, Poll, Solved, Solver
-from crumple.multibody.checks import crushing, overloaded, trust
+from crumple.multibody.checks import trust
 from crumple.multibody.checks.collapse import changed_capacities, collapse_log, not_unique, scaled_hinge
 from crumple.multibody.checks.overlap import obstacle_overlap_warnings
 from crumple.multibody.checks.physics import physics_cautions
 from crumple.multibody.kernel_choice import why_spatial
 from crumple.multibody.planar.solver import TreeSolver
-from crumple.multibody.run import CHECK_FACTOR, Cancel, Progress, Run, outcome_status, picture_times, poll_of
+from crumple.multibody.run import (
+    CANNOT_GO_ON,
+    CHECK_FACTOR,
+    Cancel,
+    Progress,
+    Run,
+    outcome_status,
+    picture_times,
+    poll_of,
+)
 from crumple.multibody.spatial.solver import SpatialSolver
 from crumple.numeric.arrays import Floats
 from crumple.result import Provenance, Result, missing_pictures, sentences
@@ -40,7 +49,7 @@ from crumple.structure import Structure, any_automatic, law_uses, placed_hinges,
 
 FORK = 0.05
 """Difference of the rotations of two runs over the largest one that accuracy alone hardly explains."""
-FAILED = frozenset({Outcome.STEP_COLLAPSED, Outcome.STALLED, Outcome.NOT_FINITE})
+FAILED = CANNOT_GO_ON
 """Ends of a run with members that bend after which rigid bars are tried."""
 CHECKED_FROM = 0.4
 """Share of the progress at which the runs with changed capacities begin, which are four coarse ones."""
@@ -123,19 +132,13 @@ def _with_rigid_bars(
     structure: Structure, run: Run, solved: Solved, progress: Progress | None, cancel: Cancel | None
 ) -> Result:
     """Result of rigid bars, where members that bend unless the input says otherwise end a run."""
-    rigid = replace(run, settings=run.settings.model_copy(update={"members": "rigid"}))
+    bars = run.settings.model_copy(update={"members": "rigid"})
+    rigid = replace(run, settings=bars, bending_tried=True)
     result = solve_multibody(structure, rigid, progress, cancel)
     why = f"Members are rigid bars here: with members that bend the run ended early ({solved.reason})."
-    cautions = tuple(replace(one, text=_without_bending(one.text)) for one in result.cautions)
-    warnings = (why, *map(_without_bending, result.warnings))
-    return replace(result, cautions=cautions, warnings=warnings)
-
-
-def _without_bending(text: str) -> str:
-    """A sentence without the advice to let members bend, which was tried."""
-    for advice in (trust.BEND, overloaded.BEND, crushing.BEND):
-        text = text.replace(advice, "")
-    return text
+    settings = {**result.provenance.settings, "members": "rigid"}
+    provenance = replace(result.provenance, settings=settings)
+    return replace(result, warnings=(why, *result.warnings), provenance=provenance)
 
 
 def _balanced(solver: Solver, solved: Solved, run: Run, poll: Poll) -> tuple[Solved, float]:
@@ -243,6 +246,7 @@ def _result(
     seconds: float,
     accuracy: float,
 ) -> Result:
+    solved = replace(solved, bending_tried=run.bending_tried)
     bound = run.settings.energy_residual_bound
     status, reason = outcome_status(solved.outcome, solved.reason, solved.residual, bound)
     cautions = physics_cautions(structure, solved)

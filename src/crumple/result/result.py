@@ -141,12 +141,13 @@ class Opening:
 
 @dataclass(frozen=True)
 class StageSummary:
-    """One stage of a sequence: name, start and end [s], and the reason of its end."""
+    """One stage of a sequence: name, start and end [s], why it ended, and whether that was its duration."""
 
     name: str
     start: float
     end: float
     ended_by: str
+    by_duration: bool = False
 
 
 @dataclass(frozen=True, eq=False)

@@ -202,8 +202,9 @@ class Stepping:
                 break
         if stage.kind == "quasi-static":
             self.state.stop()
-        why = why or ("all that is needed" if self.done else "its duration")
-        self.ended += (StageSummary(stage.name, begin, float(self.times[-1]), why),)
+        lasted = not (why or self.done)
+        why = why or ("its duration" if lasted else "all that is needed")
+        self.ended += (StageSummary(stage.name, begin, float(self.times[-1]), why, lasted),)
         return Status.COMPLETE, ""
 
     def _enter(self, stage: Stage, begin: float, number: int) -> None:

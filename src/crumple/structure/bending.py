@@ -2,6 +2,7 @@
 
 A frame whose nodes span a plane bends in it.  A straight structure bends in the plane of its members and
 of its motion and loads: initial velocities, impulses, loads, driven supports, gravity, in this order.
+Parts that no node connects have planes of their own.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ def bending_axis(structure: StructureParts, member: str) -> Literal["y", "z"]:
         Name of the member.
     """
     frame = structure.frame_of(member)
-    normal = structure.bending_normal
+    normal = structure.normal_of(member)
     if normal is None:
         return "y"
     _, y, z = np.abs(frame.axes @ np.array(normal)).tolist()

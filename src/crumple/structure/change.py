@@ -15,7 +15,7 @@ from crumple.structure.structure import Structure
 
 WALLS = ("sections", "materials")
 """Parts that say nothing of where a structure is and how it moves."""
-SHARED = ("bending_normal", "supports_at", "masses_at", "joints_at", "members_at")
+SHARED = ("bending_normal", "part_normals", "supports_at", "masses_at", "joints_at", "members_at")
 """Derived data that does not depend on them."""
 
 

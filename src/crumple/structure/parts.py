@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from contextlib import suppress
 from functools import cached_property
 from typing import Self, TypeVar
@@ -31,6 +31,7 @@ from crumple.structure.schema.spec import Named, Spec
 from crumple.structure.settings.stored_laws import LawsOrFolder
 
 Part = TypeVar("Part")
+Normal = tuple[float, float, float]
 
 OF_ANY_STIFFNESS = frozenset({
     "section", "material", "rigidity", "shear area", "planar", "corners", "untreated corners", "T-joints",
@@ -45,6 +46,20 @@ def _by_node(parts: Iterable[tuple[str, Part]]) -> dict[str, list[Part]]:
     for node, part in parts:
         found.setdefault(node, []).append(part)
     return found
+
+
+def connected(members: Mapping[str, Sequence[str]]) -> list[list[str]]:
+    """Members, given with their nodes and welds, in groups that share some."""
+    groups: dict[str, list[str]] = {}
+    at: dict[str, str] = {}
+    for name, nodes in members.items():
+        groups[name] = [name]
+        for node in nodes:
+            first = at.setdefault(node, name)
+            if first != name and groups[first] is not groups[name]:
+                groups[first].extend(groups[name])
+                groups |= dict.fromkeys(groups[name], groups[first])
+    return list({id(group): group for group in groups.values()}.values())
 
 
 class StructureParts(Spec):
@@ -216,28 +231,69 @@ class StructureParts(Spec):
         )
 
     @cached_property
-    def bending_normal(self) -> tuple[float, float, float] | None:
+    def bending_normal(self) -> Normal | None:
         """Normal of the plane in which it bends; None if it is not determined."""
-        ends = dict.fromkeys(node for member in self.members.values() for node in member.nodes)
+        return self._normal(list(self.members))
+
+    def normal_of(self, member: str) -> Normal | None:
+        """Normal of the plane in which the part bends that a member is connected to.
+
+        Parts that nothing connects do not decide for each other; one without a plane of its own has that of
+        the whole structure.
+        """
+        return self.part_normals.get(member) or self.bending_normal
+
+    @cached_property
+    def part_normals(self) -> dict[str, Normal | None]:
+        """Normals of the parts by member, where there are several parts."""
+        joined = {name: [*member.nodes] for name, member in self.members.items()}
+        for weld, spots in self.spot_welds.items():
+            for name in joined.keys() & {*spots.members}:
+                joined[name].append(f"spot_welds.{weld}")
+        parts = connected(joined)
+        if len(parts) < 2:
+            return {}
+        return {name: normal for part in parts for normal in (self._normal(part),) for name in part}
+
+    def _normal(self, members: Sequence[str]) -> Normal | None:
+        """Normal of the plane in which some of the members bend, which are connected to no others."""
+        ends = dict.fromkeys(node for name in members for node in self.members[name].nodes)
         points = np.array([self.nodes[node] for node in ends if node in self.nodes], float)
-        normal = plane_normal(points, self._turning_and_pushing())
+        whole = len(members) == len(self.members)
+        normal = plane_normal(points, self._turning_and_pushing(None if whole else {*ends, *members}))
         # a tuple: with a cached array two structures could not be compared
         return None if normal is None else (float(normal[0]), float(normal[1]), float(normal[2]))
 
-    def _turning_and_pushing(self) -> Iterator[tuple[Floats, Floats]]:
-        """Axis and direction of all that bends a straight structure, strongest reason first; zero: none."""
+    def _turning_and_pushing(self, names: Set[str] | None) -> Iterator[tuple[Floats, Floats]]:
+        """Axis and direction of all that bends a straight structure, strongest reason first; zero: none.
+
+        `names`: nodes and members of the part that is asked for; None: all.
+        """
+
+        def acts(*on: str) -> bool:
+            return names is None or not names.isdisjoint(on)
+
         none = np.zeros(3)
         for field in self.initial_velocity:
+            everywhere = field.nodes is None and field.members is None
+            if not (everywhere or acts(*(field.nodes or ()), *(field.members or ()))):
+                continue
             turns = field.axis is not None and field.rotation
             yield np.asarray(field.axis, float) if turns else none, np.asarray(field.translation, float)
         for impulse in self.impulses:
+            if not acts(impulse.node):
+                continue
             yield np.asarray(impulse.angular_impulse, float), np.asarray(impulse.impulse, float)
         for load in self.loads:
+            if not acts(load.node):
+                continue
             moment, force = (
                 [getattr(part, axis) is not None for axis in "xyz"] for part in (load.moment, load.force)
             )
             yield np.array(moment, float), np.array(force, float)
         for support in self.supports.values():
+            if not acts(support.node):
+                continue
             turned, pushed = ([f"{kind}{axis}" in support.driven for axis in "xyz"] for kind in ("r", ""))
             yield np.array(turned, float), np.array(pushed, float)
         yield none, np.asarray(self.gravity, float)

@@ -10,6 +10,7 @@ import pytest
 
 from crumple.analysis import input_hash, load, loads, solve
 from crumple.analysis.filters import with_filters
+from crumple.analysis.unmet import with_unmet
 from crumple.errors import InputError, Status
 from crumple.result import cfc
 
@@ -72,6 +73,20 @@ obstacles:
         "displacement of ram 400 mm was not reached (100 mm at most)."
     ]
     assert warned("{displacement: 90 mm, of: ram}, {energy: 80 kJ}") == []
+
+
+@pytest.mark.parametrize("fidelity", ["multibody", "shell"])
+def test_stages_say_apart_from_their_words_that_they_ended_by_their_duration(fidelity):
+    stage = "stages: [{name: push, duration: 0.1 ms, until: [{energy: 80 kJ}]}]"
+    short = re.sub(r"\n  (pictures|every):.*", "", TEXT)
+    analysis = loads(short.replace("duration: 100 ms", stage))
+    result = solve(analysis, fidelity)
+    assert [one.by_duration for one in result.stages] == [True]
+    told = tuple(replace(one, ended_by="time") for one in result.stages)
+    (warning,) = with_unmet(replace(result, stages=told, warnings=()), analysis.stages).warnings
+    assert warning.startswith("Stage push ended by its duration: energy 80 kJ was not reached")
+    met = tuple(replace(one, by_duration=False) for one in result.stages)
+    assert with_unmet(replace(result, stages=met, warnings=()), analysis.stages).warnings == ()
 
 
 def test_unknown_solvers_and_no_threads_are_refused():

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from crumple.structure import Structure, placed_hinges
+from crumple.multibody import Run, solve_multibody
+from crumple.structure import Outputs, Structure, placed_hinges
 from crumple.structure.bending import planar
 from crumple.structure.hinges.elastic_members import joint_stations
 
@@ -109,6 +110,53 @@ def test_a_section_at_an_angle_to_the_plane_also_bends_across_it(
     assert (hinge.spatial is None) == flat
     bends = [axis for axis in ("y", "z") if joint_stations(arm, "tube", axis, (0.0,))]
     assert len(bends) == (1 if flat else 2)
+
+
+OTHER = {
+    "beside": ((0.0, 1.0, 0.0), (1.0, 1.0, 0.0)),
+    "leaning": ((0.0, 1.0, 0.0), (0.3, 1.6, 0.2)),
+    "above": ((0.0, 0.0, 1.0), (1.0, 0.0, 1.0)),
+}
+
+
+def with_another_part(structure: Structure, ends: tuple[Any, Any], **parts: Any) -> Structure:
+    """The structure and a free tube that nothing connects to it, thrown upwards."""
+    plain = {name: dict(getattr(structure, name)) for name in ("nodes", "members")}
+    thrown = {"translation": (0.0, 0.0, 1.0), "members": ("other",)}
+    return Structure(
+        materials={"steel": STEEL},
+        sections={"tube": TUBE},
+        nodes=plain["nodes"] | dict(zip("de", ends, strict=True)),
+        members=plain["members"] | {"other": {"nodes": ("d", "e"), "section": "tube", "material": "steel"}},
+        supports=structure.supports,
+        masses=structure.masses,
+        initial_velocity=[*structure.initial_velocity, thrown],
+        **parts,
+    )
+
+
+@pytest.mark.parametrize("ends", OTHER.values(), ids=OTHER)
+@pytest.mark.parametrize("way", ["y", "z"])
+def test_another_part_does_not_decide_on_the_plane(way: str, ends: tuple[Any, Any]) -> None:
+    """Two tubes span a plane that neither bends in; a hinge across it locked the one that is thrown."""
+    along = {"y": (0.0, 40.0, 0.0), "z": (0.0, 0.0, 40.0)}[way]
+    alone = cantilever(initial_velocity=[{"translation": along, "members": ("tube",)}])
+    whole = with_another_part(alone, ends)
+    assert axis_of(whole) == axis_of(alone)
+    run = Run(0.02, 1e-3, outputs=Outputs(nodes=("tip",)))
+    one, two = solve_multibody(alone, run), solve_multibody(whole, run)
+    assert one.hinges["root"].rotation_max > 0.05
+    for axis in "xyz":
+        name = f"node.tip.displacement.{axis}"
+        assert two[name][-1] == pytest.approx(one[name][-1], abs=1e-4), name
+
+
+def test_spot_welds_connect() -> None:
+    """Two tubes side by side are one part, which bends in their plane where nothing else says so."""
+    alone = cantilever()
+    welds = {"line": {"members": ("tube", "other"), "points": [(0.5, 0.025, 0.0)]}}
+    beside = ((0.0, 0.05, 0.0), (1.0, 0.05, 0.0))
+    assert axis_of(with_another_part(alone, beside, spot_welds=welds)) == "z"
 
 
 def test_looking_spoils_neither_comparison_nor_copies() -> None:

@@ -1,6 +1,7 @@
 """What `crumple study` says: rows, constraints, indices, and how to go on."""
 
 import json
+import signal
 
 import pytest
 from tests.unit.study.test_study import ROTATION, WALL, rows_of, written
@@ -43,15 +44,19 @@ def test_the_command(run_command, tmp_path):
     assert '"sobol_indices"' in out
 
 
-def test_an_interrupted_study_says_how_to_go_on(run_command, tmp_path, monkeypatch):
+@pytest.mark.parametrize(("number", "exit_code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_an_interrupted_study_says_how_to_go_on(number, exit_code, run_command, tmp_path, monkeypatch):
     def interrupted(*_):
-        raise KeyboardInterrupt
+        signal.raise_signal(number)
+
+    before = signal.getsignal(number)
 
     file = written(tmp_path, "{type: sobol, rows: 32}")
     monkeypatch.setattr("crumple.study.table.Table._store", interrupted)
     code, out, err = run_command("study", file, "--out", tmp_path / "my rows", "--workers", 1)
-    assert (code, out) == (130, "")
+    assert (code, out) == (exit_code, "")
     assert "the rows so far are kept" in err
+    assert signal.getsignal(number) is before
     assert f"crumple study {file} --out '{tmp_path / 'my rows'}' --resume" in " ".join(err.split())
 
 

@@ -63,12 +63,13 @@ def solve_many(
     *,
     poll: Callable[[float], bool] | None = None,
     times: Sequence[float] = (),
+    parts: int = 1,
 ) -> TreeEndValues:
     """Solve every variant up to time ``end`` [s], bit for bit as a `Simulation` of it.
 
     ``poll(share)`` is called at intervals with the share done and returns False to cancel; variants that were
     not begun then have the outcome CANCELLED.  At increasing ``times`` [s] steps end, as at the output times
-    of a run, and the states there are kept.
+    of a run, and the states there are kept.  `parts`: as of a `Simulation`.
     """
     out = _kernels.planar.solve_many(
         [kernel_model(model) for model in variants.cases],
@@ -81,6 +82,7 @@ def solve_many(
         threads,
         poll,
         times,
+        parts,
     )
     samples = named(out.pop("samples", {}))
     return TreeEndValues(**named(out), samples=samples)

@@ -82,11 +82,13 @@ def solve_many(
     poll: Callable[[float], bool] | None = None,
     led: bool = False,
     times: Sequence[float] = (),
+    parts: int = 1,
 ) -> SpatialEndValues:
     """Solve every variant through its stages, bit for bit as a `SpatialSimulation` of it.
 
     ``poll(share)`` is called at intervals with the share done and returns False to cancel; variants that were
     not begun then have the outcome CANCELLED.  The states at increasing ``times`` [s] are kept.
+    `parts`: as of a `SpatialSimulation`.
 
     `led`: the first variant alone is solved so.  The others take its steps, and in place of every solution of
     Newton's method the first Newton step from the leader's: half the difference of two of them that lie close
@@ -104,6 +106,7 @@ def solve_many(
         poll,
         led,
         times,
+        parts,
     )
     samples = named(out.pop("samples", {}))
     return SpatialEndValues(**named(out), samples=samples)

@@ -110,6 +110,8 @@ class Solved:
         Dents that obstacles pressed into walls.
     stepping_seconds
         Wall time of the stepping alone [s].
+    bending_tried
+        Whether members that bend ended an earlier run, so that nothing advises them.
     """
 
     outcome: Outcome
@@ -134,6 +136,7 @@ class Solved:
     crushed: tuple[CrushedContact, ...] = ()
     crumpled: tuple[CrumpledEnd, ...] = ()
     dents: tuple[DentHistory, ...] = ()
+    bending_tried: bool = False
 
     @property
     def balance(self) -> Floats:

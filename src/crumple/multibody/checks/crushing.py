@@ -64,7 +64,7 @@ def crushing_cautions(structure: Structure, solved: Solved, *, struck: bool) -> 
             f"{max(beyond.values()) / 1e3:.4g} kN along {'its axis' if one else 'their axes'}, and "
             f"{peak / 1e3:.4g} kN fold the walls ({what}), but nothing in {it} can shorten: axial folding "
             f"is not modelled. Give {it} hinges with 'axial: {{law: {law or 'superfolding'}}}', "
-            f"{_bending(structure, beyond)}or solve with shells."
+            f"{'' if solved.bending_tried else _bending(structure, beyond)}or solve with shells."
         )
         for member, force in beyond.items():
             yield Caution("axial_compression", force, peak, "N", f"member {member}", text)

@@ -61,7 +61,8 @@ def overloaded_sections(structure: Structure, solved: Solved) -> Iterator[Cautio
         text = (
             f"{named('Member', list(found))} {'is' if one else 'are'} loaded up to "
             f"{max(found.values()):.3g} times what the walls carry at an end without a hinge, where the "
-            f"model is rigid: {'it' if one else 'they'} would fold there. Write 'hinges: auto'{BEND}."
+            f"model is rigid: {'it' if one else 'they'} would fold there. Write 'hinges: auto'"
+            f"{'' if solved.bending_tried else BEND}."
         )
         for member, use in found.items():
             yield Caution("overloaded_section", use, USED, "1", f"member {member}", text)

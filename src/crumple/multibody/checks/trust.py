@@ -188,7 +188,7 @@ def warnings(
         found.append(
             f"The bars are rigid, but the members could store up to {stored:.3g} J elastically "
             f"({_share(stored / total)}): rotations lack the elastic part and the plastic ones are "
-            f"too large{BEND}."
+            f"too large{'' if solved.bending_tried else BEND}."
         )
     found += _slowed(solved)
     if solved.forced:
@@ -231,7 +231,7 @@ def _of_hinge(structure: Structure, hinge: PlacedHinge, summary: HingeSummary) -
         valid = math.degrees(law.validity.rotation_max)
         basis = law.validity.basis.replace("{", "{{").replace("}", "}}")
         found.append(f"{turned}; the law is valid up to {valid:.1f} deg only ({basis})")
-    normal = structure.bending_normal
+    normal = structure.normal_of(hinge.member)
     if normal is not None and not _bends_both_ways(hinge):
         off = math.degrees(math.acos(min(1.0, abs(float(hinge.direction @ np.asarray(normal))))))
         if off > OFF_AXIS:

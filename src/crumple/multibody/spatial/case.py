@@ -14,11 +14,12 @@ from crumple.errors import InputError, Problem
 from crumple.multibody.answer.dents import DentHistory, dent_histories
 from crumple.multibody.answer.hinge_histories import RecordedHinge, Rows
 from crumple.multibody.answer.poses import SpatialEndPoses
-from crumple.multibody.bodies.dead_centres import dead_centres
+from crumple.multibody.bodies.dead_centres import DeadCentres, dead_centres
 from crumple.multibody.bodies.initial_motion import Placed, spatial_initial_motion
 from crumple.multibody.bodies.linkage import Linkage, check_inertia, link
 from crumple.multibody.bodies.obstacles.bodies import Touching, with_obstacles
 from crumple.multibody.run import Run
+from crumple.multibody.spatial.crushing_contacts import with_crushing
 from crumple.multibody.spatial.model import spatial_model, support_drives
 from crumple.multibody.spatial.off_dead_centres import off_dead_centres
 from crumple.multibody.spatial.stages import kernel_conditions, refuse_floating, stages_of
@@ -38,6 +39,10 @@ class SpatialCase:
         Model and stages.
     velocity, impulse
         Motion that every stage adds, at the centres of mass, (stages, bodies, 6).
+    dead_centres
+        What stands at a dead centre at the start.
+    plain
+        Model before it is moved off dead centres.
     """
 
     structure: Structure
@@ -46,6 +51,16 @@ class SpatialCase:
     case: StagedModel
     velocity: Floats
     impulse: Floats
+    dead_centres: DeadCentres
+    plain: SpatialModel
+
+    def again(self, *, aside: bool, crushing: bool) -> SpatialCase:
+        """The case with hinges aside of dead centres, or with walls that crush under contacts."""
+        model, _ = off_dead_centres(self.plain, self.linkage, self.dead_centres, aside=aside)
+        touching = replace(self.touching, model=model)
+        if crushing:
+            touching = with_crushing(self.structure, touching)
+        return replace(self, touching=touching, case=replace(self.case, model=touching.model))
 
     @property
     def model(self) -> SpatialModel:
@@ -201,7 +216,8 @@ def spatial_case(structure: Structure, run: Run) -> SpatialCase:
     frequency = run.settings.resolved_frequency
     plain = spatial_model(structure, linkage, longest, resolved_frequency=frequency)
     touching = with_obstacles(structure, linkage, plain, owners, stages)
-    touching = replace(touching, model=off_dead_centres(touching.model, linkage, dead_centres(linkage))[0])
+    centres, unmoved = dead_centres(linkage), touching.model
+    touching = replace(touching, model=off_dead_centres(unmoved, linkage, centres)[0])
     motions = [
         added_motion(structure, linkage, touching, stage, first=i == 0)[:2] for i, stage in enumerate(stages)
     ]
@@ -212,6 +228,8 @@ def spatial_case(structure: Structure, run: Run) -> SpatialCase:
         StagedModel(touching.model, tuple(kernel_stage(structure, linkage, touching, s) for s in stages)),
         np.stack([velocity for velocity, _ in motions]),
         np.stack([impulse for _, impulse in motions]),
+        centres,
+        unmoved,
     )
 
 

@@ -28,7 +28,7 @@ from crumple.multibody.bodies.mobility import free_parts
 from crumple.multibody.bodies.obstacles.bodies import with_obstacles
 from crumple.multibody.checks.infinitesimal import dead_centre_notes
 from crumple.multibody.checks.stuck_drives import stuck_drives, stuck_note
-from crumple.multibody.run import Run, output_times, refuse_unbegun, step_bounds
+from crumple.multibody.run import CANNOT_GO_ON, Run, output_times, refuse_unbegun, step_bounds
 from crumple.multibody.spatial.case import added_motion, kernel_stage, recorded_dents, recorded_hinges
 from crumple.multibody.spatial.crushing_contacts import crumpled_ends, crushed_contacts, with_crushing
 from crumple.multibody.spatial.model import kernel_hinges, spatial_model, support_drives
@@ -176,7 +176,8 @@ class SpatialSolver:
             ended = end_reason(stage, conditions, records[-1])
             # a stage that was cancelled at its beginning has no output
             reached = float(records[-1].time[-1]) if len(records[-1].time) else begin
-            stages.append(StageSummary(stage.name, begin, reached, ended))
+            lasted = records[-1].ended_by < 0 and not np.isfinite(records[-1].lost_time)
+            stages.append(StageSummary(stage.name, begin, reached, ended, lasted))
             if records[-1].outcome is not Outcome.COMPLETE:
                 break
         record = with_held_moments(_joined(records), self.linkage, model, self._holding)
@@ -307,7 +308,7 @@ class SpatialSolver:
 
 
 def _failed(solved: Solved) -> bool:
-    return solved.outcome in (Outcome.STEP_COLLAPSED, Outcome.STALLED, Outcome.NOT_FINITE)
+    return solved.outcome in CANNOT_GO_ON
 
 
 def _stage_times(grid: Floats, begin: float, end: float) -> Floats:

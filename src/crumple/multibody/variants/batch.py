@@ -20,9 +20,10 @@ from crumple.multibody.answer.end_values import OF_NODES, Ended, common_quantiti
 from crumple.multibody.answer.solved import Poll
 from crumple.multibody.kernel_choice import refuse_spatial
 from crumple.multibody.planar.case import planar_case
-from crumple.multibody.run import Run
+from crumple.multibody.run import CHECK_FACTOR, Run
 from crumple.multibody.spatial.case import spatial_case
 from crumple.multibody.variants.factors import masses_of
+from crumple.multibody.variants.repeats import Repeats
 from crumple.numeric.arrays import Floats, Integers
 from crumple.structure import Structure, changed, value_at
 
@@ -82,10 +83,15 @@ class Batch(ABC):
     ----------
     run
         Duration, settings, stages and outputs.
+    as_answer
+        Take the steps of the answer of `solve_multibody`, at a quarter of the accuracy, so that a variant
+        without changes has its bits; else those of its run that estimates the error.
     """
 
-    def __init__(self, run: Run) -> None:
-        self.run = run
+    def __init__(self, run: Run, *, as_answer: bool = False) -> None:
+        self.run, self.as_answer = run, as_answer
+        self.accuracy = run.settings.accuracy / (CHECK_FACTOR if as_answer else 1.0)
+        self.parts = 2 if as_answer else 1
 
     @abstractmethod
     def case(self, structure: Structure, *, moved: bool = False) -> Case:
@@ -198,7 +204,7 @@ class PlanarBatch(Batch):
         settings, end = self.run.settings, self.run.duration
         bounds = settings.minimum_time_step, settings.maximum_time_step
         return planar_kernel.solve_many(
-            variants, end, settings.accuracy, *bounds, threads, poll=poll, times=times
+            variants, end, self.accuracy, *bounds, threads, poll=poll, times=times, parts=self.parts
         )
 
 
@@ -214,10 +220,35 @@ class SpatialBatch(Batch):
     ) -> EndValues:
         """See `Batch`."""
         settings = self.run.settings
-        bounds = settings.minimum_time_step, settings.maximum_time_step
+        longest = settings.maximum_time_step
+        if self.as_answer and any(stage.kind == "quasi-static" for stage in self.run.stages):
+            longest = min(longest, self.run.every / 2)
+        bounds, parts = (settings.minimum_time_step, longest), self.parts
         return spatial_kernel.solve_many(
-            variants, settings.accuracy, *bounds, threads, poll=poll, led=led, times=times
+            variants, self.accuracy, *bounds, threads, poll=poll, led=led, times=times, parts=parts
         )
+
+    def solve(
+        self,
+        values: Mapping[str, Floats],
+        cases: Sequence[Case],
+        case_of: Integers,
+        threads: int,
+        poll: Poll | None,
+        *,
+        led: bool = False,
+        times: Sequence[float] = (),
+    ) -> EndValues:
+        """See `Batch`; variants that cannot go on are repeated as `SpatialSolver.run` does, but led ones."""
+        ends: Any = super().solve(values, cases, case_of, threads, poll, led=led, times=times)
+        if not led:
+
+            def again(values: Mapping[str, Floats], cases: Sequence[Case], case_of: Integers) -> Any:
+                return super(SpatialBatch, self).solve(values, cases, case_of, threads, poll, times=times)
+
+            own: Any = cases
+            Repeats(again, values, own, case_of, ends).run(self.run.settings.energy_residual_bound)
+        return ends  # type: ignore[no-any-return]
 
 
 def part_of(ends: EndValues, rows: NDArray[np.int64]) -> EndValues:

@@ -7,6 +7,7 @@ in one call of the batch kernel.  Together they are a range, not a bound: other 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -52,10 +53,11 @@ def law_range(
     ----------
     docs/theory/measured_curves.md.  Verified in tests/unit/multibody/variants/test_law_range.py.
     """
+    run = run_as_solved(run, nominal)
     bands, without, factors = law_factors(with_elastic_members(structure, run.settings, run.duration))
     if not bands:
         return None
-    table = solve_variants(structure, run, factors, threads, cancel=cancel)
+    table = solve_variants(structure, run, factors, threads, cancel=cancel, as_answer=True)
     good = np.array([status.ok for status in table.status])
     failed = tuple(name for name, ok in zip(CASES, good.tolist(), strict=True) if not ok)
     known = _known(run, nominal)
@@ -67,6 +69,14 @@ def law_range(
     }
     ranges = {name: _range([known[name], *(case[name] for case in cases.values())]) for name in values}
     return LawRange(ranges, bands, without, failed, cases)
+
+
+def run_as_solved(run: Run, result: Result) -> Run:
+    """The run with what the solver changed of its settings: a finer accuracy, or rigid bars."""
+    used = result.provenance.settings
+    changed = {"accuracy": used.get("accuracy_used"), "members": used.get("members")}
+    update = {name: value for name, value in changed.items() if value is not None}
+    return replace(run, settings=run.settings.model_copy(update=update))
 
 
 def law_factors(structure: Structure) -> tuple[dict[str, float], tuple[str, ...], dict[str, Floats]]:

@@ -14,7 +14,7 @@ import numpy as np
 from crumple.multibody.checks.collapse import PART, ROUNDING, patterns
 from crumple.multibody.run import Cancel, Progress, Run
 from crumple.multibody.variants.contact_points import contact_points
-from crumple.multibody.variants.law_range import WIDEST
+from crumple.multibody.variants.law_range import WIDEST, run_as_solved
 from crumple.multibody.variants.variants import OTHER_PARTS, VariantTable, solve_variants
 from crumple.numeric.arrays import Floats
 from crumple.numeric.ranking import largest_first
@@ -74,6 +74,7 @@ def modes(
     ----------
     docs/theory/modes.md.  Verified in tests/unit/multibody/variants/test_modes.py.
     """
+    run = run_as_solved(run, result)
     structure = with_elastic_members(structure, run.settings, run.duration)
     asked = run.settings.mechanism_check
     unasked = asked == "off" or (asked == "auto" and not any_automatic(structure))

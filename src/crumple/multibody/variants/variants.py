@@ -23,7 +23,7 @@ from crumple.errors import CancelledError, InputError, Problem, Status
 from crumple.multibody.answer.end_values import OF_NODES
 from crumple.multibody.answer.solved import Poll
 from crumple.multibody.kernel_choice import why_spatial
-from crumple.multibody.run import Cancel, Progress, Run, outcome_status
+from crumple.multibody.run import Cancel, Progress, Run, outcome_status, output_times
 from crumple.multibody.variants.batch import (
     Batch,
     Case,
@@ -120,6 +120,7 @@ def solve_variants(
     cancel: Cancel | None = None,
     *,
     times: ArrayLike = (),
+    as_answer: bool = False,
 ) -> VariantTable:
     """Solve a structure for many values of its parameters.
 
@@ -139,6 +140,9 @@ def solve_variants(
     times
         Increasing times [s] at which quantities are wanted too.  In a plane and in quasi-static stages steps
         end at them, so that final values differ from those without them within the accuracy.
+    as_answer
+        Take the steps of the answer of `solve_multibody`, at a quarter of the accuracy and ending at the
+        outputs where its do: a variant without changes has its bits.  `times` must then be left out.
 
     Returns
     -------
@@ -155,9 +159,10 @@ def solve_variants(
     Notes
     -----
     Each variant is solved once, at the accuracy of the settings; `solve_multibody` solves a second time at a
-    quarter of it to state an error.  All have the kernel that the structure itself gets, in space with its
-    stages.  Rows have the bits of a single run of the kernel with the same arrays;
-    masses enter these arrays to rounding as they do in `solve_multibody`.
+    quarter of it to state an error.  In space a variant that cannot go on is repeated as there.  All have
+    the kernel that the structure itself gets, in space with its stages.  Rows have the bits of a single run
+    of the kernel with the same arrays; masses enter these arrays to rounding as they do in
+    `solve_multibody`.
 
     References
     ----------
@@ -168,7 +173,7 @@ def solve_variants(
     poll = _poll(progress, cancel)
     sampled = np.asarray(times, float)
     planar = why_spatial(structure, placed_hinges(structure), run) is None
-    batch: Batch = PlanarBatch(run) if planar else SpatialBatch(run)
+    batch = (PlanarBatch if planar else SpatialBatch)(run, as_answer=as_answer)
     return _table(batch, structure, parameters, count, poll, sampled)
 
 
@@ -184,7 +189,8 @@ def _table(
     values = _columns(structure, hinge_names(base), parameters)
     cases, case_of, refused = _cases(batch, structure, values, base, poll)
     solving = _later(poll, PREPARED) if len(cases) > 1 else poll
-    ends = batch.solve(values, cases, case_of, threads, solving, times=times.tolist())
+    stops = output_times(batch.run)[1:] if batch.as_answer else times
+    ends = batch.solve(values, cases, case_of, threads, solving, times=stops.tolist())
     bound = batch.run.settings.energy_residual_bound
     status, reason = _outcomes(ends.outcome, ends.residual, refused, bound)
     quantities = batch.quantities(cases, case_of, ends)

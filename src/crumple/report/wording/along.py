@@ -25,7 +25,10 @@ def crush_table(result: Result) -> Table:
         "Bottomed out", f"Peak force, {peak_unit}", f"Mean force, {mean_unit}", f"Energy, {energy_unit}",
     )  # fmt: skip
     rows = list(zip(zones, lengths, efficiencies, strokes, closed, peaks, means, energies, strict=True))
-    caption = "What each crush zone did. Stroke efficiency: crush length over the length of the member."
+    caption = (
+        "What each crush zone did. Stroke efficiency: crush length over the length of the member. Forces are "
+        "unfiltered; the mean is the energy over the crush length."
+    )
     return Table(caption, heads, rows)
 
 

@@ -347,10 +347,9 @@ def _placed(structure: StructureParts, place: HingePlace, shares: HingeShares) -
 def _direction(structure: StructureParts, place: HingePlace) -> Floats:
     """Axis of a hinge at the start; a round section has none of its own and takes the plane of bending's."""
     axis = structure.frame_of(place.member).axis(place.axis)
-    normal = structure.bending_normal
-    if normal is None or structure.section_of(place.member).kind != "circular_tube":
-        return axis
-    across = np.array(normal)
+    round_tube = structure.section_of(place.member).kind == "circular_tube"
+    normal = structure.normal_of(place.member) if round_tube else None
+    across = np.zeros(3) if normal is None else np.array(normal)
     along = float(across @ axis)
     # the given axis determines which of the two it is, and its sense
     if abs(along) <= NEARER:

@@ -1,15 +1,20 @@
 """Range of a result from the bands of its laws: edges of the bands, laws without one, where it is kept."""
 
 import json
+from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from tests.support.multibody.frames import THROWN, member, structure
+from tests.support.structures import STEEL, TUBE
 from typer.testing import CliRunner
 
+from crumple.analysis import load, solve, with_law_range
 from crumple.cli.main import app
 from crumple.hinge import build_law
-from crumple.multibody import Run, law_range, solve_multibody
+from crumple.multibody import Run, law_range, solve_multibody, solve_variants
 from crumple.result import read, summary, write
+from crumple.structure import MultibodySettings, Stage, Structure
 
 RUN = Run(duration=0.3, every=1e-3)
 TIP = {"tip": {"node": "b", "mass": 5.0}}
@@ -39,6 +44,57 @@ def test_the_range_is_that_of_runs_with_the_edges_of_the_band():
     assert found.failed == ()
 
 
+def equal_to_the_result(result, found):
+    """The nominal case has the bits of the result, and some plastic work was done."""
+    nominal = found.cases["nominal"]
+    assert found.failed == ()
+    assert nominal["energy.dissipated"] == result["energy.dissipated"][-1] > 0.0
+    for name, value in nominal.items():
+        hinge, _, key = name.removeprefix("hinge.").rpartition(".")
+        assert value == (
+            getattr(result.hinges[hinge], key) if name.startswith("hinge.") else result[name][-1]
+        )
+
+
+@pytest.mark.parametrize("kernel", ["tree", "spatial"])
+def test_the_nominal_case_is_the_result(kernel):
+    whole, run = bar("kecman"), replace(RUN, settings=MultibodySettings(kernel=kernel))
+    result = solve_multibody(whole, run)
+    assert result.provenance.settings["kernel"] == kernel
+    equal_to_the_result(result, law_range(whole, run, result, 1))
+
+
+@pytest.mark.parametrize("name", ["15_crash_box", "14_rops"])
+def test_the_nominal_case_of_crushed_rails_and_of_quasi_static_stages_is_the_result(name):
+    analysis = load(Path("examples") / f"{name}.yaml")
+    result = solve(analysis, checks=False)
+    equal_to_the_result(result, with_law_range(result, analysis).law_range)
+
+
+@pytest.mark.parametrize("kind", ["dynamic", "quasi-static"])
+def test_walls_that_crush_under_a_contact_do_so_in_every_case(kind):
+    """A ram along a straight bar: rigid contacts cannot go on; the run is repeated with walls that crush."""
+    ram = {"type": "plane", "point": (1.05, 0, 0), "normal": (-1, 0, 0), "velocity": (-0.1, 0, 0)}
+    hinge = {"name": "fold", "at": 0.5, "law": {"type": "kecman"}}
+    whole = Structure(
+        materials={"steel": STEEL},
+        sections={"tube": TUBE},
+        nodes={"root": (0.0, 0.0, 0.0), "tip": (1.0, 0.0, 0.0)},
+        members={
+            "bar": {"nodes": ("root", "tip"), "section": "tube", "material": "steel", "hinges": [hinge]}
+        },
+        supports={"clamp": {"node": "root", "fix": "all"}},
+        obstacles={"ram": ram},
+    )
+    run = Run(1.0, 0.05, stages=(Stage(name="push", kind=kind, duration=1.0),))
+    result = solve_multibody(whole, run)
+    assert result["energy.contact"][-1] > 1e3
+    table = solve_variants(whole, run, {"hinges.fold.capacity": [1.0, 1.1]}, 1, as_answer=True)
+    assert [status.ok for status in table.status] == [True, True]
+    assert table["energy.contact"][0] == result["energy.contact"][-1]
+    assert law_range(whole, run, result, 1).failed == ()
+
+
 def test_alternating_laws_move_the_fold_from_one_hinge_to_the_next():
     """Two hinges near each other: with equal factors the first folds, weakened alone the second one does."""
     hinges = (("h", 0.05, {"law": "kecman"}), ("k", 0.12, {"law": "kecman"}))
@@ -58,8 +114,6 @@ def test_hinges_without_a_band_keep_their_law_and_are_listed():
 
 
 def test_the_range_is_written_and_read_with_the_result(tmp_path):
-    from dataclasses import replace
-
     result, found = solved(bar("kecman"))
     result = replace(result, law_range=found)
     write(result, tmp_path)

@@ -17,6 +17,7 @@ from crumple.report.drawing.style import drawing
 from crumple.report.drawing.window import happening, window_sentence
 from crumple.report.figures.answers.force import over_path
 from crumple.report.page_figures import answers, draw
+from crumple.report.wording.along import crush_table
 from crumple.result import Channel
 
 RAILS = Path(__file__).parents[4] / "examples" / "11_front_rails.yaml"
@@ -80,11 +81,40 @@ def test_crush_zones_have_their_mean_and_peak(rails):
     for i, name in enumerate(("left", "right"), 1):
         zone = result.hinges[name].crush
         svg = found[f"crush_{i}"]
+        assert f">mean {zone.mean_force / 1e3:.3g}<" in svg
         # by trapezia over the outputs, where the summary has the work of the steps
-        (mean,) = re.findall(r">mean ([0-9.]+)<", svg)
-        assert float(mean) == pytest.approx(zone.mean_force / 1e3, rel=0.01)
         assert f"peak {zone.peak_force / 1e3:.3g}" in svg
         assert area(svg, "crush, mm", f"Force of {name}, kN") == pytest.approx(zone.energy, rel=0.02)
+
+
+BOX = """
+crumple: 1
+materials: {alu: {grade: 6060-T6}}
+sections: {tube: {type: square_tube, side: 70 mm, thickness: 2 mm}}
+nodes: {root: [0 m, 0 m, 0 m], tip: [250 mm, 0 m, 0 m]}
+members:
+  box:
+    {nodes: [root, tip], section: tube, material: alu,
+     hinges: [{name: crush, at: 125 mm, axial: {law: superfolding}}]}
+supports: {base: {node: root, fix: all}}
+obstacles:
+  sled: {type: plane, point: [0.2501 m, 0 m, 0 m], normal: [-1, 0, 0], mass: 500 kg,
+         velocity: [-5 m/s, 0 m/s, 0 m/s]}
+analysis: {duration: 80 ms}
+outputs: {every: 0.2 ms}
+"""
+
+
+def test_the_figure_and_the_table_of_a_zone_whose_folds_close_name_the_same_forces():
+    """A sum over the outputs took the spike of the closed folds for work: 33.5 kN beside 30.8 kN."""
+    result, found = panels(BOX)
+    assert result.hinges["crush"].crush.bottomed_out
+    table = crush_table(result)
+    shown = dict(zip(table.heads, table.rows[0], strict=True))
+    for line in ("Mean", "Peak"):
+        assert f">{line.lower()} {float(shown[f'{line} force, kN']):.3g}<" in found["crush_1"]
+    assert "unfiltered" in table.caption
+    assert "unfiltered" in found["crush_1"]
 
 
 def test_each_kind_of_answer_is_there(rails):

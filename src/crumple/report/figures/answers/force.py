@@ -44,11 +44,17 @@ def vector(result: Result, stem: str) -> Floats | None:
 
 
 def over_path(
-    figure: str, quantity: tuple[str, str], path: Floats, force: Floats, x_name: str = "travel"
+    figure: str,
+    quantity: tuple[str, str],
+    path: Floats,
+    force: Floats,
+    x_name: str = "travel",
+    known: tuple[float, float] | None = None,
 ) -> str | None:
     """Force or moment over the path of its point as SVG, with the largest and the mean value as lines.
 
-    The mean is the work over the longest path, up to which it is done: integral of F dx over x.
+    The mean is the work over the longest path, up to which it is done: integral of F dx over x.  Nothing is
+    filtered.
 
     Parameters
     ----------
@@ -60,6 +66,8 @@ def over_path(
         [m] or [rad], and [N] or [N m], shape (n_times,).
     x_name
         What the path is.
+    known
+        Mean and peak where the result has them, so that no sum over the outputs stands beside them.
     """
     last = int(np.argmax(path))
     if not path[last] > 0.0:
@@ -69,13 +77,14 @@ def over_path(
     x_unit, x_factor = ("deg", np.pi / 180.0) if turns else display_unit("m", largest([path]))
     x, y = path / x_factor, force / factor
     work = float(np.sum((force[1 : last + 1] + force[:last]) / 2.0 * np.diff(path[: last + 1])))
-    mean, peak = work / float(path[last]) / factor, float(force[: last + 1].max()) / factor
+    mean, peak = known or (work / float(path[last]), float(force[: last + 1].max()))
+    mean, peak = mean / factor, peak / factor
     lines = [Line("", x, y, 0)]
     if peak > 0.0 and mean > 0.0:
         reach = np.array([0.0, x[last]])
         lines += [Line(f"mean {mean:.3g}", reach, np.full(2, mean), 1)]
         lines += [Line(f"peak {peak:.3g}", x[int(np.argmax(y[: last + 1]))] + 0 * reach, np.full(2, peak), 2)]
-    text = f"{quantity[0]} over {x_name}, with its mean and its peak."
+    text = f"{quantity[0]} over {x_name}, unfiltered, with its mean and its peak."
     return panel(figure, text, lines, (f"{x_name}, {x_unit}", f"{quantity[0]}, {unit}"))
 
 

@@ -1,0 +1,142 @@
+"""Values far outside of what structural metals, thin-walled sections and crashes have: mostly a wrong unit.
+
+Nothing is refused for them.  The ranges are wide, so that whoever is outside of one is very likely mistaken:
+
+- Young's modulus 1 to 1000 GPa: magnesium has 45, tungsten 400; lead, the softest in use, 16.
+- Yield, ultimate and flow stress 1 MPa to 5 GPa: pure lead yields at some 5 MPa, steel wires at 4 GPa.
+- Density 500 to 25 000 kg/m3: lithium, the lightest metal, has 534, osmium, the heaviest, 22 590.
+- Wall thickness 0.02 to 100 mm: foil of honeycomb has 0.03 mm; thicker plates are not thin-walled frames.
+- Largest side of a section 1 mm to 10 m: from a capillary to a box girder.
+- Length of a member 1 mm to 1 km: bars between hinges are longer than their folds; no frame has a longer one.
+- Mass of a lump or obstacle up to 100 000 t: a loaded ship.  Small ones do no harm.
+- Speed up to 500 m/s: above it shock waves in the metal matter, which neither solver has.
+- Gravity up to 5000 m/s2: 500 g stand for a hard pulse; 9810 is the number in mm/s2.
+- Duration 10 microseconds to 1 h: waves cross a section in the former; creep, which no law has, begins to
+  matter in the latter.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple.structure.parts import StructureParts
+from crumple.text.names import listed
+from crumple.units import format_quantity
+
+Found = Iterator[tuple[str, float]]
+"""Paths and values."""
+
+
+@dataclass(frozen=True)
+class Usual:
+    """A range of usual values: what has them, unit, ends in SI, and the values of an input."""
+
+    what: str
+    unit: str
+    low: float
+    high: float
+    values: Callable[[StructureParts, float], Found]
+
+
+@dataclass(frozen=True)
+class Unusual:
+    """Values outside of a range: the first one, the end of the range that it is beyond, and a sentence."""
+
+    place: str
+    value: float
+    limit: float
+    unit: str
+    text: str
+
+
+def _material(key: str) -> Callable[[StructureParts, float], Found]:
+    def values(structure: StructureParts, duration: float) -> Found:
+        for name, material in structure.materials.items():
+            value = getattr(material, key)
+            if value is not None:
+                yield f"materials.{name}.{key}", value
+
+    return values
+
+
+def _thicknesses(structure: StructureParts, duration: float) -> Found:
+    for section, member in _used(structure):
+        yield f"sections.{section}", structure.section_of(member).thickness
+
+
+def _sides(structure: StructureParts, duration: float) -> Found:
+    for section, member in _used(structure):
+        yield f"sections.{section}", float(np.ptp(structure.section_of(member).outer_outline(), axis=0).max())
+
+
+def _used(structure: StructureParts) -> Iterator[tuple[str, str]]:
+    """Sections in use, with a member of each."""
+    yield from {spec.section: name for name, spec in structure.members.items()}.items()
+
+
+def _lengths(structure: StructureParts, duration: float) -> Found:
+    for name in structure.members:
+        yield f"members.{name}", structure.frame_of(name).length
+
+
+def _masses(structure: StructureParts, duration: float) -> Found:
+    yield from ((f"masses.{name}.mass", mass.mass) for name, mass in structure.masses.items())
+    for name, obstacle in structure.obstacles.items():
+        if obstacle.mass is not None:
+            yield f"obstacles.{name}.mass", obstacle.mass
+
+
+def _speeds(structure: StructureParts, duration: float) -> Found:
+    for i, field in enumerate(structure.initial_velocity):
+        yield f"initial_velocity[{i}].translation", math.hypot(*field.translation)
+    for name, obstacle in structure.obstacles.items():
+        yield f"obstacles.{name}.velocity", math.hypot(*obstacle.velocity)
+
+
+USUAL = (
+    Usual("the Young's modulus of a metal", "Pa", 1e9, 1e12, _material("youngs_modulus")),
+    Usual("the yield stress of a metal", "Pa", 1e6, 5e9, _material("yield_stress")),
+    Usual("the ultimate strength of a metal", "Pa", 1e6, 5e9, _material("ultimate_stress")),
+    Usual("the flow stress of a metal", "Pa", 1e6, 5e9, _material("flow_stress")),
+    Usual("the density of a metal", "kg/m^3", 500.0, 25e3, _material("density")),
+    Usual("the wall thickness of a thin-walled section", "m", 2e-5, 0.1, _thicknesses),
+    Usual("the largest side of a thin-walled section", "m", 1e-3, 10.0, _sides),
+    Usual("the length of a member", "m", 1e-3, 1e3, _lengths),
+    Usual("a mass", "kg", 0.0, 1e8, _masses),
+    Usual("the speed of a crash", "m/s", 0.0, 500.0, _speeds),
+    Usual("gravity", "m/s^2", 0.0, 5e3, lambda s, _: iter([("gravity", math.hypot(*s.gravity))])),
+    Usual("the duration of a crash", "s", 1e-5, 3600.0, lambda _, t: iter([("analysis.duration", t)])),
+)
+
+
+def unusual_values(structure: StructureParts, duration: float) -> tuple[Unusual, ...]:
+    """What is outside of the ranges of `USUAL`, alike things together.
+
+    Parameters
+    ----------
+    structure
+        Checked.
+    duration
+        Of the run [s].
+    """
+    found = []
+    for usual in USUAL:
+        outside = {
+            place: value
+            for place, value in usual.values(structure, duration)
+            if not usual.low <= value <= usual.high
+        }
+        for place, value in list(outside.items())[:1]:
+            came = format_quantity(value, usual.unit)
+            low, high = (format_quantity(end, usual.unit) for end in (usual.low, usual.high))
+            allowed = f"{low} to {high}" if usual.low > 0.0 else f"at most {high}"
+            others = list(outside)[1:]
+            more = f" (so are {listed(others)})" if others else ""
+            text = f"{place}: {came} is far from usual{more}; {usual.what} is {allowed}. Check its unit."
+            limit = usual.low if value < usual.low else usual.high
+            found.append(Unusual(place, value, limit, usual.unit, text))
+    return tuple(found)

@@ -1,0 +1,94 @@
+"""Cautions about values far outside of usual ranges: one for each kind, none for examples and the suite."""
+
+from pathlib import Path
+
+import pytest
+from tests.concordance.suite import FOLDER
+from typer.testing import CliRunner
+
+from crumple.analysis import load, loads, solve
+from crumple.cli.main import app
+from crumple.structure.checks.unusual import USUAL, unusual_values
+
+EXAMPLES = Path(__file__).parents[4] / "examples"
+BAR = """crumple: 1
+materials: {s: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 300 MPa,
+                ultimate_stress: 400 MPa, flow_stress: 350 MPa}}
+sections: {t: {type: square_tube, side: 50 mm, thickness: 2 mm}}
+nodes: {a: [0 m, 0 m, 0 m], b: [1 m, 0 m, 0 m], c: [2 m, 0 m, 0 m]}
+members:
+  ab: {nodes: [a, b], section: t, material: s, hinges: [{name: root, at: a, law: {type: kecman}}]}
+  bc: {nodes: [b, c], section: t, material: s}
+supports: {clamp: {node: a, fix: all}}
+masses: {m: {node: b, mass: 10 kg}}
+initial_velocity: [{translation: [0 m/s, 0 m/s, 5 m/s]}]
+gravity: [0 m/s^2, 0 m/s^2, -9.81 m/s^2]
+analysis: {duration: 10 ms}
+outputs: {every: 1 ms}
+"""
+HINGE = ", hinges: [{name: root, at: a, law: {type: kecman}}]"
+CHANGES = {
+    "Young's modulus": ("210 GPa", "900 MPa"),
+    "yield stress": ("yield_stress: 300 MPa", "yield_stress: 350 Pa"),
+    "ultimate strength": ("400 MPa", "400 GPa"),
+    "flow stress": ("flow_stress: 350 MPa", "flow_stress: 350 GPa"),
+    "density": ("7850 kg", "7.85 kg"),
+    "wall thickness": ("side: 50 mm, thickness: 2 mm", "side: 9 m, thickness: 200 mm"),
+    "largest side": ("side: 50 mm", "side: 50 m"),
+    "length of a member": ("[2 m,", "[2000 m,"),
+    "mass": ("10 kg}", "1e9 kg}"),
+    "speed": ("5 m/s]", "600 m/s]"),
+    "gravity": ("-9.81 m/s^2", "-9810 m/s^2"),
+    "duration": ("duration: 10 ms", "duration: 1e6 s"),
+}
+
+
+def found(text):
+    analysis = loads(text)
+    return unusual_values(analysis.structure, analysis.duration)
+
+
+@pytest.mark.parametrize("what", CHANGES)
+def test_a_value_far_outside_of_its_range_is_named(what):
+    free = BAR.replace(HINGE, "").replace("outputs: {every: 1 ms}", "")
+    assert found(free) == ()
+    assert CHANGES[what][0] in free
+    texts = [one.text for one in found(free.replace(*CHANGES[what])) if what in one.text]
+    assert len(texts) == 1
+    assert "Check its unit." in texts[0]
+
+
+def test_every_row_of_the_table_is_tried():
+    assert len(CHANGES) == len(USUAL)
+
+
+def test_alike_values_have_one_sentence():
+    (one,) = found(BAR.replace("[1 m,", "[2000 m,").replace("[2 m,", "[4000 m,"))
+    assert one.text.startswith("members.ab: 2000 m is far from usual (so are members.bc)")
+    assert (one.value, one.limit, one.unit) == (2000.0, 1000.0, "m")
+
+
+def test_the_result_has_a_caution_and_the_commands_say_it(tmp_path):
+    text = BAR.replace("yield_stress: 300 MPa", "yield_stress: 350 Pa")
+    said = (
+        "materials.s.yield_stress: 350 Pa is far from usual; the yield stress of a metal is 1 MPa to 5 GPa."
+    )
+    for fidelity in ("multibody", "shell"):
+        short = text.replace("duration: 10 ms", "duration: 0.02 ms").replace("every: 1 ms", "every: 0.01 ms")
+        result = solve(loads(short), fidelity)
+        assert [c.place for c in result.cautions if c.code == "unusual_value"] == ["materials.s.yield_stress"]
+        assert result.warnings[0].startswith(said)
+    file = tmp_path / "bar.yaml"
+    file.write_text(text, encoding="utf-8")
+    assert f"Caution: {said}" in CliRunner().invoke(app, ["check", str(file)]).output
+    output = CliRunner().invoke(app, ["run", str(file), "--out", str(tmp_path / "out")]).output
+    assert f"Caution: {said}" in " ".join(output.split())
+    assert said in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+
+
+def test_examples_and_structures_of_the_suite_are_usual():
+    files = [*EXAMPLES.glob("*.yaml"), *(EXAMPLES / "layouts").glob("*.yaml"), *FOLDER.glob("**/*.yaml")]
+    assert len(files) > 40
+    for file in files:
+        analysis = load(file)
+        assert unusual_values(analysis.structure, analysis.duration) == (), file
