@@ -16,6 +16,8 @@ constexpr double large_error = 10, shrink_limit_of_order = 0.02;
 constexpr double most_order = 3, least_order = 1;
 // Steps are not shortened below this multiple of the smallest step to end at the closing of a contact.
 constexpr double shortest_landing = 4;
+// Landings in a row that fall short before the closing times found are doubled, once for each further one; and number that is counted.
+constexpr int patient_landings = 3, most_landings = 30;
 // In motion the factor is rounded down to whole parts: the error of a step in which hinges lock has few digits, and rounding in the moments that
 // equilibrium does not determine would otherwise change the lengths of all later steps.
 constexpr double parts_of_factor = 1024;
@@ -49,7 +51,10 @@ bool StepLength::can_land(double h) const { return h > shortest_landing * least_
 
 bool StepLength::land(double h, double closing) {
     if (!can_land(h)) return false;
-    landing_ = std::max(closing, least_);
+    // this step was to end there, and went too far
+    if (landing_ > 0) short_landings_ = 0;
+    const double further = std::ldexp(closing, std::max(short_landings_ - patient_landings, 0));
+    landing_ = std::max({closing, std::min(further, h / 2), least_});
     return true;
 }
 
@@ -85,6 +90,7 @@ void StepLength::follow(const StepPlan& plan, double e, bool quasi_static) {
     const double next = quasi_static ? found : std::min(found, std::max(after(plan.h, expected, quasi_static), plan.h));
     before_ = plan.h;
     error_before_ = e;
+    short_landings_ = landing_ > 0 ? std::min(short_landings_ + 1, most_landings) : 0;
     h_ = plan.cut && e <= 1 ? std::max(h_, next) : next;
     landing_ = 0;
     refused_error_ = 0;
