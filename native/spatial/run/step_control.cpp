@@ -164,6 +164,7 @@ bool Simulation::solve(double h) {
 // The step of an impact: so short that only velocities change.
 bool Simulation::strike(Record& record) {
     ahead_.forget();
+    length_.struck();
     stepper_.contacts().set_bounces(strikes_ < most_bounces);
     const bool solved = stepper_.step(state_, settings_.minimum_step, nullptr);
     stepper_.contacts().set_bounces(true);

@@ -16,6 +16,8 @@ constexpr double large_error = 10, shrink_limit_of_order = 0.02;
 constexpr double most_order = 3, least_order = 1;
 // Steps are not shortened below this multiple of the smallest step to end at the closing of a contact.
 constexpr double shortest_landing = 4;
+// Landings in a row that fall short before the closing times found are doubled, once for each further one; and number that is counted.
+constexpr int patient_landings = 3, most_landings = 30;
 // In motion the factor is rounded down to whole parts: the error of a step in which hinges lock has few digits, and rounding in the moments that
 // equilibrium does not determine would otherwise change the lengths of all later steps.
 constexpr double parts_of_factor = 1024;
@@ -49,7 +51,10 @@ bool StepLength::can_land(double h) const { return h > shortest_landing * least_
 
 bool StepLength::land(double h, double closing) {
     if (!can_land(h)) return false;
-    landing_ = std::max(closing, least_);
+    // this step was to end there, and went too far
+    if (landing_ > 0) short_landings_ = 0;
+    const double further = std::ldexp(closing, std::max(short_landings_ - patient_landings, 0));
+    landing_ = std::max({closing, std::min(further, h / 2), least_});
     return true;
 }
 
@@ -67,8 +72,8 @@ void StepLength::shorten(double h, double e, bool quasi_static) {
         const double order = std::clamp(std::log(refused_error_ / e) / std::log(refused_ / h), least_order, most_order);
         next = std::min(next, h * whole_parts(std::max(safety * std::pow(e, -1 / order), shrink_limit_of_order)));
     }
-    refused_ = h;
-    refused_error_ = e;
+    refused_ = before_ = h;
+    refused_error_ = error_before_ = e;
     h_ = std::max(next, least_);
     landing_ = 0;
 }
@@ -79,7 +84,13 @@ void StepLength::end_at(double share, double h) {
 }
 
 void StepLength::follow(const StepPlan& plan, double e, bool quasi_static) {
-    const double next = after(plan.h, e, quasi_static);
+    const double found = after(plan.h, e, quasi_static);
+    // Where the velocities vibrate, the error passes through zero: a longer step must suit the error of the step before, too.
+    const double expected = before_ > 0 ? error_before_ * std::pow(plan.h / before_, most_order) : 0;
+    const double next = quasi_static ? found : std::min(found, std::max(after(plan.h, expected, quasi_static), plan.h));
+    before_ = plan.h;
+    error_before_ = e;
+    short_landings_ = landing_ > 0 ? std::min(short_landings_ + 1, most_landings) : 0;
     h_ = plan.cut && e <= 1 ? std::max(h_, next) : next;
     landing_ = 0;
     refused_error_ = 0;

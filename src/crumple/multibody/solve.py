@@ -49,6 +49,8 @@ from crumple.structure import Structure, any_automatic, law_uses, placed_hinges,
 
 FORK = 0.05
 """Difference of the rotations of two runs over the largest one that accuracy alone hardly explains."""
+NEGLIGIBLE = 1e-9
+"""Difference of the rotations of two runs [rad] that is rounding, however small the rotations are."""
 FAILED = CANNOT_GO_ON
 """Ends of a run with members that bend after which rigid bars are tried."""
 CHECKED_FROM = 0.4
@@ -118,7 +120,8 @@ def solve_multibody(
     errors = None
     if run.checks and solved.outcome is Outcome.COMPLETE and rough.outcome is Outcome.COMPLETE:
         errors = _errors(rough, solved)
-        if errors.max(initial=0.0) > FORK * max((one.rotation_max for one in solved.hinges), default=0.0):
+        turned = max((one.rotation_max for one in solved.hinges), default=0.0)
+        if errors.max(initial=0.0) > max(FORK * turned, NEGLIGIBLE):
             poll = poll_of(run.duration, (checked, checked), progress, cancel)
             errors = _errors_beside_finer(solver, solved, errors, run, (poll, cancel))
     doubt = _doubt(structure, run, solver, rough, (progress, cancel)) if run.checks else None
