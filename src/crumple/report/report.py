@@ -141,6 +141,7 @@ def _render(
     from crumple.report.scene.page import page_parts  # noqa: PLC0415
     from crumple.report.wording import along, wording  # noqa: PLC0415
     from crumple.report.wording.answer import MOST_CAUTIONS, grouped, members_of, one_mode, three_sentences  # noqa: PLC0415
+    from crumple.report.wording.key_figures import key_figures  # noqa: PLC0415
     from crumple.report.wording.law_range import range_table  # noqa: PLC0415
     from crumple.report.wording.scatter import criterion_sentences  # noqa: PLC0415
 
@@ -168,7 +169,7 @@ def _render(
         cautions=grouped(verdict.warnings, [*result.hinges, *members_of(result)]),
         most_cautions=MOST_CAUTIONS,
         shown_times=window_sentence(result),
-        key_figures=wording.key_figures(result),
+        key_figures=key_figures(result),
         figures={
             **{name: figures.get(name) for name in named},
             "folds": [figure for name, figure in figures.items() if name.startswith("fold_")],

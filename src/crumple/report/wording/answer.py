@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 
 from crumple.numeric.ranking import largest_first
+from crumple.report.wording.key_figures import crush_matters
 from crumple.report.wording.wording import Verdict, degrees, percent
 from crumple.result import Result
 from crumple.units import format_quantity
@@ -72,7 +73,11 @@ def _crumpled(result: Result) -> str:
 
 
 def _reached(result: Result) -> str:
-    zones = {name: hinge.crush for name, hinge in result.hinges.items() if hinge.crush is not None}
+    zones = {
+        name: hinge.crush
+        for name, hinge in result.hinges.items()
+        if hinge.crush is not None and crush_matters(result)
+    }
     crushed = largest_first({name: zone.length for name, zone in zones.items() if zone.length > 0.0})
     if crushed:
         name, zone = crushed[0], zones[crushed[0]]

@@ -13,7 +13,6 @@ from crumple.hinge.law_use import INPUT
 from crumple.numeric.ranking import largest_first
 from crumple.report.drawing.scales import display_unit, output_groups
 from crumple.result import HingeSummary, Result
-from crumple.units import format_quantity
 
 _DEGREES = math.degrees(1.0)
 _FALL = 0.05  # work of gravity over the largest energy, from which the energy of the fall is tabulated
@@ -115,68 +114,6 @@ def _error(result: Result) -> str:
         return ""
     share = f" ({percent(error / hinge.rotation_max)})" if hinge.rotation_max > 0 else ""
     return f" Estimated error of the largest rotation: {degrees(error, 2)}°{share}."
-
-
-def key_figures(result: Result) -> list[tuple[str, str, str]]:
-    """Key figures: name, value, note."""
-    figures: list[tuple[str, str, str]] = []
-    several = len(result.hinges) > 1
-    bending = {name: hinge for name, hinge in result.hinges.items() if hinge.bends}
-    figures += _crush_figures(result)
-    if bending:
-        name = largest_first({name: hinge.rotation_max for name, hinge in bending.items()})[0]
-        most = bending[name]
-        figures.append(
-            (
-                "Largest rotation",
-                f"{degrees(most.rotation_max)}°",
-                _note(f"{most.rotation_max:.4g} rad", name, several),
-            )
-        )
-        figures.append(_rest(result, several))
-        total = sum(hinge.energy for hinge in result.hinges.values())
-        figures.append(("Energy absorbed", format_quantity(total, "J"), "all hinges" if several else ""))
-        name = largest_first({name: hinge.moment_max for name, hinge in bending.items()})[0]
-        most = bending[name]
-        figures.append(("Peak moment", format_quantity(most.moment_max, "N*m"), _note("", name, several)))
-    figures.append(("Energy residual", percent(result.energy_residual), "of the energy input"))
-    figures.append(("Solve time", format_quantity(result.solve_seconds, "s", 2), ""))
-    return figures
-
-
-def _crush_figures(result: Result) -> list[tuple[str, str, str]]:
-    """The crush zone that shortened most: crush length, peak and mean force, energy."""
-    zones = {name: hinge.crush for name, hinge in result.hinges.items() if hinge.crush is not None}
-    if not zones:
-        return []
-    name = largest_first({name: zone.length for name, zone in zones.items()})[0]
-    most = zones[name]
-    note = name if len(result.hinges) > 1 else ""
-    efficiency = f"{percent(most.efficiency)} of the member" + (", bottomed out" if most.bottomed_out else "")
-    return [
-        ("Crush length", format_quantity(most.length, "m"), _note(efficiency, name, bool(note))),
-        ("Peak force", format_quantity(most.peak_force, "N"), note),
-        ("Mean force", format_quantity(most.mean_force, "N"), note),
-        ("Energy of crushing", format_quantity(sum(zone.energy for zone in zones.values()), "J"), ""),
-    ]
-
-
-def _note(text: str, hinge: str, several: bool) -> str:
-    return " · ".join(part for part in (text, hinge if several else "") if part)
-
-
-def _rest(result: Result, several: bool) -> tuple[str, str, str]:
-    times = {name: hinge.time_of_rest for name, hinge in result.hinges.items()}
-    moving = [name for name, time in times.items() if time is None]
-    if moving:
-        return (
-            "At rest after",
-            "—",
-            f"{len(moving)} of {len(times)} still rotating" if several else "still rotating",
-        )
-    known = {name: time for name, time in times.items() if time is not None}
-    name = largest_first(known)[0]
-    return ("At rest after", format_quantity(known[name], "s"), name if several else "")
 
 
 def hinge_table(result: Result) -> Table:

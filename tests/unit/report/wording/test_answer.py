@@ -5,6 +5,7 @@ from dataclasses import replace
 from tests.support.result.synthetic_tube import tube_result
 
 from crumple.report.wording.answer import grouped, three_sentences
+from crumple.report.wording.key_figures import key_figures
 from crumple.report.wording.wording import verdict
 from crumple.result.crush import CrushSummary
 
@@ -52,6 +53,16 @@ def test_a_crush_zone_is_told_by_its_forces():
         "front was crushed by 150 mm, until its folds were closed, "
         "at a mean force of 20 kN and a peak of 60 kN."
     )
+
+
+def test_a_crush_zone_that_took_little_comes_after_the_folds():
+    zone = CrushSummary(8e-4, 8e-4, 80e3, 25e3, 20.0, 0.1, 0.001, bottomed_out=False)
+    folded = replace(tube_result().hinges["root"], energy=700.0)
+    result = tube_result(hinges={"root": folded, "front": replace(folded, energy=30.0, crush=zone)})
+    assert sentences(result)[1].startswith("root turned farthest")
+    names = [name for name, *_ in key_figures(result)]
+    assert names.index("Largest rotation") == 0
+    assert "Crush length" in names
 
 
 def test_without_hinges_and_energies_only_the_trust_is_stated():

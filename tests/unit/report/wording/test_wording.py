@@ -10,11 +10,11 @@ from tests.support.result.synthetic_tube import tube_result
 
 from crumple.errors import Status
 from crumple.report.drawing.scales import display_unit, output_groups, pretty_unit, spread, thinned, time_unit
+from crumple.report.wording.key_figures import key_figures
 from crumple.report.wording.wording import (
     angle,
     column,
     hinge_table,
-    key_figures,
     law_table,
     number,
     output_table,
