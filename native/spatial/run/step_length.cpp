@@ -72,8 +72,8 @@ void StepLength::shorten(double h, double e, bool quasi_static) {
         const double order = std::clamp(std::log(refused_error_ / e) / std::log(refused_ / h), least_order, most_order);
         next = std::min(next, h * whole_parts(std::max(safety * std::pow(e, -1 / order), shrink_limit_of_order)));
     }
-    refused_ = before_ = h;
-    refused_error_ = error_before_ = e;
+    refused_ = h;
+    refused_error_ = e;
     h_ = std::max(next, least_);
     landing_ = 0;
 }
@@ -84,13 +84,8 @@ void StepLength::end_at(double share, double h) {
 }
 
 void StepLength::follow(const StepPlan& plan, double e, bool quasi_static) {
-    const double found = after(plan.h, e, quasi_static);
-    // Where the velocities vibrate, the error passes through zero: a longer step must suit the error of the step before, too.
-    const double expected = before_ > 0 ? error_before_ * std::pow(plan.h / before_, most_order) : 0;
-    const double next = quasi_static ? found : std::min(found, std::max(after(plan.h, expected, quasi_static), plan.h));
-    before_ = plan.h;
-    error_before_ = e;
     short_landings_ = landing_ > 0 ? std::min(short_landings_ + 1, most_landings) : 0;
+    const double next = after(plan.h, e, quasi_static);
     h_ = plan.cut && e <= 1 ? std::max(h_, next) : next;
     landing_ = 0;
     refused_error_ = 0;

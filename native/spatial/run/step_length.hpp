@@ -22,7 +22,7 @@ public:
     double allowed() const { return h_; }
     // before the first step of a stage, and at its beginning
     void begin(double duration);
-    void forget() { h_ = refused_error_ = before_ = 0; }
+    void forget() { h_ = refused_error_ = 0; }
     // Length and flags of the next step, of at most `longest`, before limits by loads; `aimed`: it is that of a leader's step.
     double wanted(double longest, double left, bool aimed) const;
     StepPlan plan(double h, double wanted, double longest, double left) const;
@@ -45,7 +45,6 @@ private:
     double least_, most_;
     double h_ = 0;
     double refused_ = 0, refused_error_ = 0;  // of the step rejected last from the present state; error 0: none was
-    double before_ = 0, error_before_ = 0;    // of the step tried last, accepted or rejected; length 0: none was
     int short_landings_ = 0;  // landings in a row that did not lead to an impact
     double landing_ = 0;  // length of the step that ends at the closing of a contact; 0 if none is ahead
 };
