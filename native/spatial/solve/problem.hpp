@@ -19,9 +19,9 @@ namespace crumple::spatial {
 // of equilibrium does not depend on the steps.  Smaller values need more steps if loads rotate with the structure; larger ones become
 // noticeable.
 constexpr double drag = 0.1;
-// Weight of the end of a quasi-static step in the moments of elastic hinges: 2/3 of the error of a moment is left after each step.  Where
-// it is a step from a state out of balance, the end has all of the weight: no error is left, and its size does not follow the length of the
-// step, so that steps would shrink without limit.
+// Weight of the end of a quasi-static step in the moments of elastic hinges: 2/3 of the error of a moment is left after each step.  A
+// step from a state out of balance weights its end alone, which leaves none: such an error does not shrink with the step, so that steps
+// would be shortened without limit.
 constexpr double still_weight = 0.6, settling_weight = 1;
 // Smallest share of the inertia, for very short steps: less would be lost in rounding.
 constexpr double least_inertia = 1e-8;

@@ -52,6 +52,8 @@ SAMPLES = 41
 """Depths at which a force is given; they lie closer where it rises like a root."""
 SHALLOWEST = 1e-5
 """Depth up to which a force is constant [m]: roots begin at zero."""
+COMPARED_ROUND, COMPARED = 0.3, 0.5
+"""Depth of a dent over that of its section, round or rectangular, up to which shells were compared."""
 JAMMED, JAMS_WITHIN = 50.0, 1e-2
 """Factor on the force where walls meet, and in what share of the deepest dent they do."""
 
@@ -66,11 +68,14 @@ class Dent:
         [m], [N]; from the deepest dent on, walls meet.
     moves
         Mean displacement of the walls of the section at each depth [m].
+    compared
+        Depth up to which it was compared with shells [m].
     """
 
     depth: Floats
     force: Floats
     moves: Floats
+    compared: float
 
     def at(self, depth: Floats) -> Floats:
         """Force [N] at some depths [m]."""
@@ -110,6 +115,7 @@ def dent_of(section: CircularTube | RectangularTube, material: Material, depth: 
         np.append(depths, (1.0 + JAMS_WITHIN) * deepest),
         np.append(forces, JAMMED * forces[-1]),
         np.append(moves, moves[-1]),
+        depth * (COMPARED_ROUND if isinstance(section, CircularTube) else COMPARED),
     )
 
 

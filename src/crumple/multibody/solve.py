@@ -51,8 +51,6 @@ FORK = 0.05
 """Difference of the rotations of two runs over the largest one that accuracy alone hardly explains."""
 NEGLIGIBLE = 1e-9
 """Difference of the rotations of two runs [rad] that is rounding, however small the rotations are."""
-FAILED = CANNOT_GO_ON
-"""Ends of a run with members that bend after which rigid bars are tried."""
 CHECKED_FROM = 0.4
 """Share of the progress at which the runs with changed capacities begin, which are four coarse ones."""
 FINER = (0.1, 0.01)
@@ -107,7 +105,7 @@ def solve_multibody(
             solved, accuracy = _balanced(solver, solved, run, poll)
     except CancelledError as error:
         return _nothing_solved(run, str(error), time.perf_counter() - begin)
-    if structure is not given and run.settings.members == "auto" and solved.outcome in FAILED:
+    if structure is not given and run.settings.members == "auto" and solved.outcome in CANNOT_GO_ON:
         return _with_rigid_bars(given, run, solved, progress, cancel)
     if solved.outcome is Outcome.COMPLETE and run.checks:
         poll = poll_of(run.duration, (0.7 * checked, checked), progress, cancel)

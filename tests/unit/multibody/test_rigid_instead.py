@@ -23,7 +23,7 @@ FRAME = Path("examples/12_l_frame.yaml").read_text(encoding="utf-8")
 @pytest.fixture(name="ended")
 def _ended(monkeypatch):
     """Every run that would complete counts as one that ended early."""
-    monkeypatch.setattr(solve, "FAILED", frozenset({Outcome.COMPLETE}))
+    monkeypatch.setattr(solve, "CANNOT_GO_ON", frozenset({Outcome.COMPLETE}))
 
 
 def with_members(members):

@@ -80,13 +80,22 @@ def test_the_dent_takes_the_energy_of_a_thrown_obstacle(section, obstacle, depth
     assert result["obstacle.pole.dent"].max() == pytest.approx(dent.depth, rel=1e-6)
 
 
-@pytest.mark.parametrize(("faster", "deep"), [(1.0, False), (2.5, True)])
-def test_a_dent_beyond_the_comparison_with_shells_is_a_caution(faster, deep):
+@pytest.mark.parametrize(
+    ("section", "faster", "limit", "deep"),
+    [
+        (SQUARE, 1.0, 30e-3, False),
+        (SQUARE, 2.5, 30e-3, True),
+        (ROUND, 0.9, 18e-3, False),
+        (ROUND, 1.5, 18e-3, True),
+    ],
+)
+def test_a_dent_beyond_the_comparison_with_shells_is_a_caution(section, faster, limit, deep):
     thrown = THROWN.replace(f"-{SPEED:g} m/s", f"-{faster * SPEED:g} m/s")
-    result = crumple.solve(analysis_of(SQUARE, f"{POLE}, {thrown}"))
+    result = crumple.solve(analysis_of(section, f"{POLE}, {thrown}"))
     (dent,) = result.dents
-    assert (dent.depth > 0.5 * 60e-3) == deep
-    assert [caution.limit for caution in result.cautions if caution.code == "deep_dent"] == [30e-3] * deep
+    assert (dent.depth > limit) == deep
+    found = [caution.limit for caution in result.cautions if caution.code == "deep_dent"]
+    assert found == pytest.approx([limit] * deep)
 
 
 def test_a_dent_counts_from_the_position_at_the_start():

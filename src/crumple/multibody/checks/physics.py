@@ -50,8 +50,6 @@ CRUSHED = 0.01
 says so."""
 USED_UP = 0.95
 """Depth to which an end crumpled over the largest side of its section, above which it cannot go on."""
-DEEP = 0.5
-"""Depth of a dent over that of its section up to which laws of dents were compared with shells."""
 STRUCK = 0.5
 """Energy lost in rigid impacts relative to the energy input, above which the mean force of the impact is
 compared with the force that folds a member."""
@@ -352,19 +350,18 @@ def crumpled_ends(structure: Structure, solved: Solved) -> Iterator[Caution]:
 
 def deep_dents(solved: Solved) -> Iterator[Caution]:
     """Obstacles that press tubes flatter than the laws of dents were compared for."""
-    deep = [dent for dent in solved.dents if dent.depth.max(initial=0.0) > DEEP * dent.tube.depth]
+    deep = [dent for dent in solved.dents if dent.depth.max(initial=0.0) > dent.tube.dent.compared]
     for obstacle in dict.fromkeys(dent.obstacle for dent in deep):
         dents = [dent for dent in deep if dent.obstacle == obstacle]
         depth = max(float(dent.depth.max()) for dent in dents)
-        least = min(dent.tube.depth for dent in dents)
+        limit = min(dent.tube.dent.compared for dent in dents)
         members = list(dict.fromkeys(dent.tube.member for dent in dents))
         text = (
-            f"Obstacle {obstacle} dents {named('member', members)} by {format_quantity(depth, 'm', 3)}, "
-            f"{depth / least:.0%} of the depth of the section: the laws of dents were compared with shells "
-            f"up to {DEEP:.0%} of it. Solve with shells."
+            f"Obstacle {obstacle} dents {named('member', members)} by {format_quantity(depth, 'm', 3)}: the "
+            f"law was compared with shells up to {format_quantity(limit, 'm', 3)}. Solve with shells."
         )
         for member in members:
-            yield Caution("deep_dent", depth, DEEP * least, "m", f"member {member}", text)
+            yield Caution("deep_dent", depth, limit, "m", f"member {member}", text)
 
 
 def _span(values: list[float]) -> str:

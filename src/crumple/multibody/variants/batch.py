@@ -119,7 +119,20 @@ class Batch(ABC):
         `led`: all but the first follow the first one's steps, see the spatial kernel's `solve_many`.
         `times`: states at these are kept too.
         """
-        return self.solve_many(self._variants(values, cases, case_of), threads, poll, led, times)
+
+        def again(values: Mapping[str, Floats], cases: Sequence[Case], case_of: Integers) -> EndValues:
+            return self.solve_many(self._variants(values, cases, case_of), threads, poll, led, times)
+
+        ends = again(values, cases, case_of)
+        if not led:
+            self.repeat(again, values, cases, case_of, ends)
+        return ends
+
+    @abstractmethod
+    def repeat(
+        self, again: Any, values: Mapping[str, Floats], cases: Any, case_of: Integers, ends: Any
+    ) -> None:
+        """Solve those by `again` that cannot go on and can be repeated, and put their values in `ends`."""
 
     def quantities(
         self,
@@ -207,6 +220,11 @@ class PlanarBatch(Batch):
             variants, end, self.accuracy, *bounds, threads, poll=poll, times=times, parts=self.parts
         )
 
+    def repeat(
+        self, again: Any, values: Mapping[str, Floats], cases: Any, case_of: Integers, ends: Any
+    ) -> None:
+        """See `Batch`; in a plane nothing is."""
+
 
 class SpatialBatch(Batch):
     """Batches of the spatial kernel."""
@@ -228,27 +246,11 @@ class SpatialBatch(Batch):
             variants, self.accuracy, *bounds, threads, poll=poll, led=led, times=times, parts=parts
         )
 
-    def solve(
-        self,
-        values: Mapping[str, Floats],
-        cases: Sequence[Case],
-        case_of: Integers,
-        threads: int,
-        poll: Poll | None,
-        *,
-        led: bool = False,
-        times: Sequence[float] = (),
-    ) -> EndValues:
-        """See `Batch`; variants that cannot go on are repeated as `SpatialSolver.run` does, but led ones."""
-        ends: Any = super().solve(values, cases, case_of, threads, poll, led=led, times=times)
-        if not led:
-
-            def again(values: Mapping[str, Floats], cases: Sequence[Case], case_of: Integers) -> Any:
-                return super(SpatialBatch, self).solve(values, cases, case_of, threads, poll, times=times)
-
-            own: Any = cases
-            Repeats(again, values, own, case_of, ends).run(self.run.settings.energy_residual_bound)
-        return ends  # type: ignore[no-any-return]
+    def repeat(
+        self, again: Any, values: Mapping[str, Floats], cases: Any, case_of: Integers, ends: Any
+    ) -> None:
+        """See `Batch`; as `SpatialSolver.run` does."""
+        Repeats(again, values, cases, case_of, ends).run(self.run.settings.energy_residual_bound)
 
 
 def part_of(ends: EndValues, rows: NDArray[np.int64]) -> EndValues:
