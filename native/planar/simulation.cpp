@@ -20,7 +20,7 @@ Simulation::Simulation(Model model, const Settings& settings)
     : model_(std::move(model)), settings_(settings), stepper_(model_), step_tolerance_(step_tolerance(settings.accuracy)) {
     const std::vector<Real> rest(static_cast<size_t>(model_.tree.dofs()), 0.0);
     state_ = stepper_.start(model_.q0.data(), rest.data());
-    between_.resize(rest.size());
+    for (auto* v : {&between_, &turned_, &sped_}) v->resize(rest.size());
 }
 
 // Preparation that takes long with many hinges and must therefore be cancellable.

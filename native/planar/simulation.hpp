@@ -41,8 +41,6 @@ struct Record {
 
 // Error allowed in one step, in units of the error measure.
 double step_tolerance(double accuracy);
-// Kinetic-energy norm of velocities, or of the difference of two velocity fields [m/s kg^1/2].
-double kinetic_norm(const Tree& tree, const std::vector<Twist>& a, const std::vector<Twist>* b);
 
 class Simulation {
 public:
@@ -82,7 +80,9 @@ private:
     bool unbalanced(Record& record) const;
     bool advance(double target, Record& record, const std::function<bool(double)>& poll);
     bool step_twice(double h, bool again);
-    double error(const State& coarse, const State& fine) const;
+    double error(const State& coarse, const State& fine);
+    double moved_apart(const State& coarse, const State& fine, double& speed);
+    double unbalance(const State& fine) const;
     void show_first_moments();
     void store(Record& record) const;
     void watch(Record& record);
@@ -93,6 +93,7 @@ private:
     State state_, coarse_, fine_;
     std::vector<Critical> critical_;  // stops that get critical damping
     std::vector<Real> between_;     // joint rates at the middle of the step
+    std::vector<Real> turned_, sped_;  // differences of joint coordinates and rates between a step and its halves
     StepBound bound_;                          // step limit by loads and drives
     std::vector<std::vector<size_t>> grouped_;  // loads grouped by their function of time
     std::vector<double> moved_;                // response to a unit impulse of each group [kinetic norm]; NaN: not evaluated yet

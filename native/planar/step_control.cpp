@@ -15,6 +15,9 @@ namespace {
 // accuracy halves the step.  If each step were allowed the full accuracy, the verification problems would exceed it from 1e-5 on.
 constexpr double loosest_share = 1e-3;
 
+// Energy by which a step may be off its balance if vibration is passed over, which the error measure then does not see.
+constexpr double vibrating_share = 2e-4;
+
 constexpr double safety = 0.9, shrink_limit = 0.2, growth_limit = 4;
 
 // length and error of an attempted step
@@ -46,24 +49,53 @@ double kinetic_norm(const Tree& tree, const std::vector<Twist>& a, const std::ve
     return std::sqrt(e);
 }
 
-double Simulation::error(const State& coarse, const State& fine) const {
+// Largest difference of joint coordinates between a step and its halves, and that of velocities as `speed`, without vibration that
+// need not be resolved.
+double Simulation::moved_apart(const State& coarse, const State& fine, double& speed) {
+    for (size_t k = 0; k < turned_.size(); k++) {
+        turned_[k] = fine.q[k] - coarse.q[k];
+        sped_[k] = fine.w[k] - coarse.w[k];
+    }
+    if (stepper_.filters()) {
+        stepper_.filter(fine, sped_.data(), turned_.data());
+        speed = stepper_.speed_of(fine, sped_.data());
+    } else {
+        speed = kinetic_norm(model_.tree, coarse.velocity, &fine.velocity);
+    }
     double worst = 0;
     for (int i = 0; i < model_.tree.bodies(); i++) {
         const Body& b = model_.tree[i];
         const int n = b.joint == Joint::revolute ? 1 : 3;
         for (int k = 0; k < n; k++) {
-            const auto dof = static_cast<size_t>(b.dof + k);
-            const double e = std::fabs(value(fine.q[dof] - coarse.q[dof]));
+            const double e = std::fabs(value(turned_[static_cast<size_t>(b.dof + k)]));
             worst = std::max(worst, k == 0 ? e : e / value(model_.length));
         }
     }
+    return worst;
+}
+
+// Energy imbalance of a step relative to the energy supplied to the structure, or what a hinge gives back of its dissipated energy: the
+// mean of opposite moments at both ends of a step, times the flow in the sense of the later one, is negative.
+double Simulation::unbalance(const State& fine) const {
+    const Energies after = energies(model_, fine), before = energies(model_, state_);
+    double wrong = std::fabs(value(after.balance() - before.balance()));
+    for (size_t j = 0; j < model_.hinges.size(); j++) {
+        wrong = std::max(wrong, value(state_.hinge[j].dissipated - fine.hinge[j].dissipated));
+    }
+    const double reference = std::max(start_energy_ + std::max(work_max_, std::fabs(value(after.external_work))), negligible_energy_);
+    return reference > 0 ? wrong / reference : 0;
+}
+
+double Simulation::error(const State& coarse, const State& fine) {
+    double apart = 0, worst = moved_apart(coarse, fine, apart);
     for (size_t j = 0; j < model_.hinges.size(); j++) {
         worst = std::max(worst, value(fine.hinge[j].overrun - state_.hinge[j].overrun));
     }
     double e = worst / scale_;
     const double speed = std::max(speed_, negligible_speed_);
-    if (speed > 0) e = std::max(e, kinetic_norm(model_.tree, coarse.velocity, &fine.velocity) / speed);
-    return e / step_tolerance_;
+    if (speed > 0) e = std::max(e, apart / speed);
+    e /= step_tolerance_;
+    return stepper_.filters() ? std::max(e, unbalance(fine) / std::min(settings_.accuracy, vibrating_share)) : e;
 }
 
 // One step of length h, and two half steps whose iterations start from its rates.  After a rejected step `between_` holds the
@@ -73,9 +105,11 @@ bool Simulation::step_twice(double h, bool again) {
     fine_ = state_;
     if (!stepper_.step(coarse_, h, again ? between_.data() : state_.w.data(), Stepper::most_passes)) return false;
     for (size_t k = 0; k < between_.size(); k++) between_[k] = (state_.w[k] + coarse_.w[k]) / 2;
-    if (!stepper_.step(fine_, h / 2, between_.data(), 1)) return false;
+    // what vibrates within the step is guessed too poorly for one pass to keep its energy
+    const int passes = stepper_.filters() ? Stepper::most_passes : 1;
+    if (!stepper_.step(fine_, h / 2, between_.data(), passes)) return false;
     between_ = fine_.w;
-    return stepper_.step(fine_, h / 2, coarse_.w.data(), 1);
+    return stepper_.step(fine_, h / 2, coarse_.w.data(), passes);
 }
 
 bool Simulation::stalled(Record& record) {

@@ -41,7 +41,10 @@ Energies energies(const Model& model, const State& s) {
 Stepper::Stepper(const Model& model) : model_(model), solver_(model.tree) {
     const auto n = static_cast<size_t>(model.tree.bodies()), m = static_cast<size_t>(model.tree.dofs());
     frozen_.resize(model.hinges.size());
-    for (const Hinge& hinge : model.hinges) all_set_valued_ = all_set_valued_ && hinge.form == Form::set_valued;
+    for (const Hinge& hinge : model.hinges) {
+        all_set_valued_ = all_set_valued_ && hinge.form == Form::set_valued;
+        elastic_ = elastic_ || hinge.form == Form::elastic_plastic;
+    }
     hint_.assign(2 * model.hinges.size(), 0);
     for (auto* v : {&w_, &next_, &direction_, &rhs_, &impedance_, &dq_, &column_, &overload_, &overload_of_children_}) v->assign(m, 0.0);
     for (auto* v : {&middle_, &end_}) v->resize(n);
@@ -93,15 +96,59 @@ void Stepper::project(const State& at, const Twist* velocity, const Twist* impul
     }
     solver_.place(at.pose.data());
     solver_.solve(impedance_.data(), work_.data(), rhs_.data(), w);
-    keep_joined(at, w);
+    // drives act from the first step on
+    keep_joined(at, w, model_.drives.size());
 }
 
-// Projects w onto the rates that neither move a held point nor open a weld; drives are left out, they act from the first step on.
-void Stepper::keep_joined(const State& at, Real* w) {
-    if (rows_.size() == model_.drives.size()) return;
+// Projects w onto the rates that keep the rows from `first` on: that move no held point and open no weld.
+void Stepper::keep_joined(const State& at, Real* w, size_t first) {
+    if (rows_.size() == first) return;
     middle_ = at.pose;
     std::fill(row_target_.begin(), row_target_.end(), 0.0);
-    constrain(w, model_.drives.size());
+    constrain(w, first);
+}
+
+void Stepper::filter(const State& at, Real* rates, Real* turns) {
+    constexpr double pi = 3.14159265358979323846;
+    std::fill(impedance_.begin(), impedance_.end(), 0.0);
+    for (size_t j = 0; j < frozen_.size(); j++) {
+        // elastic laws have the tangent h^2 K/4 for the end rates of a step
+        const double scale = 2 / (2 * pi * model_.resolved_frequency * frozen_[j].h);
+        const auto dof = static_cast<size_t>(model_.hinges[j].dof);
+        impedance_[dof] = scale * scale * law_response(model_.hinges[j], frozen_[j], at.w[dof]).slope;
+    }
+    solver_.place(at.pose.data());
+    slow(at, rates, false);
+    slow(at, turns, true);
+}
+
+// `again`: with the factorisation of the last one
+void Stepper::slow(const State& at, Real* change, bool again) {
+    momentum(at, change);
+    if (again) {
+        solver_.solve_again(work_.data(), zero_.data(), change);
+    } else {
+        solver_.solve(impedance_.data(), work_.data(), zero_.data(), change);
+    }
+    keep_joined(at, change, 0);
+}
+
+// impulses about the body origins, in `work_`, that give the bodies the velocities of joint rates
+void Stepper::momentum(const State& at, const Real* rates) {
+    model_.tree.twists(at.pose.data(), rates, work_.data());
+    model_.tree.to_centres(at.pose.data(), work_.data());
+    for (int i = 0; i < model_.tree.bodies(); i++) {
+        const Body& b = model_.tree[i];
+        Twist& v = work_[static_cast<size_t>(i)];
+        const Vec2 linear = b.mass * v.v;
+        v = {b.inertia * v.w + cross(at.pose[static_cast<size_t>(i)].turned(b.centre), linear), linear};
+    }
+}
+
+double Stepper::speed_of(const State& at, const Real* rates) {
+    model_.tree.twists(at.pose.data(), rates, work_.data());
+    model_.tree.to_centres(at.pose.data(), work_.data());
+    return kinetic_norm(model_.tree, work_, nullptr);
 }
 
 Real Stepper::effective_inertia(const State& at, int dof) {
@@ -112,7 +159,7 @@ Real Stepper::effective_inertia(const State& at, int dof) {
     rhs_[static_cast<size_t>(dof)] = 1;
     solver_.place(at.pose.data());
     solver_.solve(impedance_.data(), work_.data(), rhs_.data(), column_.data());
-    keep_joined(at, column_.data());
+    keep_joined(at, column_.data(), model_.drives.size());
     return 1 / column_[static_cast<size_t>(dof)];
 }
 
@@ -128,7 +175,7 @@ double Stepper::moved_by(const State& at, const std::vector<size_t>& loads) {
     }
     solver_.place(at.pose.data());
     solver_.solve(impedance_.data(), work_.data(), rhs_.data(), column_.data());
-    keep_joined(at, column_.data());
+    keep_joined(at, column_.data(), model_.drives.size());
     model_.tree.twists(at.pose.data(), column_.data(), twist_.data());
     double power = 0;
     for (const size_t k : loads) {

@@ -8,6 +8,7 @@
 // Newton method with exact line search; each Newton step is one O(N) articulated-body solve.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -61,6 +62,7 @@ struct Model {
     std::vector<Real> q0;  // reference joint coordinates
     Real length = 1;       // [m] reference length that converts translations of free bodies to angles in the error measure
     std::vector<double> breaks;  // [s] increasing: jumps and kinks of loads and drives, where steps end
+    double resolved_frequency = INFINITY;  // [Hz] vibration of elastic hinges above it does not count in the error measure
 };
 
 struct State {
@@ -79,6 +81,8 @@ struct Energies {
 };
 
 Energies energies(const Model& model, const State& state);
+// Kinetic-energy norm of velocities, or of the difference of two velocity fields [m/s kg^1/2].
+double kinetic_norm(const Tree& tree, const std::vector<Twist>& a, const std::vector<Twist>* b);
 
 class Stepper {
 public:
@@ -99,6 +103,14 @@ public:
     Real effective_inertia(const State& at, int dof);
     // Kinetic norm of the response of the structure, with all hinges free, to a unit impulse of these loads times their scales.
     double moved_by(const State& at, const std::vector<size_t>& loads);
+    // The parts of changes of rates and of joint coordinates that vibrate slowly enough to count, (M + T^2 K)^-1 M of each, at a state that
+    // a step has just reached: M the inertias, K the stiffness of the laws there, T = 1/(2 pi frequency).  A vibration of the frequency f
+    // keeps the share 1/(1 + (f/frequency)^2); hinges that flow have no stiffness, locked ones stay locked, and held directions are kept.
+    void filter(const State& at, Real* rates, Real* turns);
+    // kinetic norm of joint rates
+    double speed_of(const State& at, const Real* rates);
+    // whether the error measure passes over vibration
+    bool filters() const { return elastic_ && std::isfinite(model_.resolved_frequency); }
     // whether prescribed motion begins with another rate than the structure has
     bool jerked(const State& at) const;
     // Smallest time constant for the correction of the drift of drives.  Without it the time constant would be twice the step, and
@@ -127,7 +139,9 @@ private:
     Real row_rate(const Row& row, const Pose* pose, const Twist* twist) const;
     void aim_rows(const State& s, double h);
     void constrain(Real* w, size_t first);
-    void keep_joined(const State& at, Real* w);
+    void keep_joined(const State& at, Real* w, size_t first);
+    void slow(const State& at, Real* change, bool again);
+    void momentum(const State& at, const Real* rates);
     Real search(Real slope_end);
     void find_loops();
     Real common_halt(double h) const;
@@ -144,7 +158,7 @@ private:
     std::vector<Real> row_target_, row_rates_, row_matrix_, row_force_, zero_;
     std::vector<int> hint_;
     std::vector<bool> looped_;  // hinges that are part of a loop
-    bool all_set_valued_ = true;
+    bool all_set_valued_ = true, elastic_ = false;
     double drift_time_ = 0;
     std::int64_t solves_ = 0;
 };

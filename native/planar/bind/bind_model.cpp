@@ -61,9 +61,12 @@ Weld make_weld(const nb::tuple& t) {
 
 Model make_model(const InNumbers& parent, const InNumbers& joint, const In& bodies, const Doubles& q0,
                  const nb::list& hinges, const nb::list& loads, const nb::list& drives, const nb::list& holds,
-                 const nb::list& welds, const Doubles& gravity, double length, const Doubles& breaks) {
-    Model model{make_tree(parent, joint, bodies), {}, {}, {}, {}, {}, {gravity.at(0), gravity.at(1)}, {q0.begin(), q0.end()}, length, breaks};
+                 const nb::list& welds, const Doubles& gravity, double length, const Doubles& breaks,
+                 double resolved_frequency) {
+    Model model{make_tree(parent, joint, bodies), {}, {}, {}, {}, {}, {gravity.at(0), gravity.at(1)}, {q0.begin(), q0.end()}, length, breaks,
+                resolved_frequency};
     require_breaks(breaks);
+    require(resolved_frequency > 0, "the resolved frequency must be positive");
     require_finite({gravity[0], gravity[1]}, "gravity must be finite");
     require(length > 0 && std::isfinite(length), "the length must be positive");
     for (const double q : q0) require_finite({q}, "q0 must be finite");
@@ -91,12 +94,13 @@ void bind_model(nb::module_& m) {
         .def("__init__",
              [](Model* self, const InNumbers& parent, const InNumbers& joint, const In& bodies, const Doubles& q0,
                 const nb::list& hinges, const nb::list& loads, const nb::list& drives, const nb::list& holds,
-                const nb::list& welds, const Doubles& gravity, double length, const Doubles& breaks) {
-                 new (self) Model(make_model(parent, joint, bodies, q0, hinges, loads, drives, holds, welds, gravity, length, breaks));
+                const nb::list& welds, const Doubles& gravity, double length, const Doubles& breaks, double resolved_frequency) {
+                 new (self) Model(make_model(parent, joint, bodies, q0, hinges, loads, drives, holds, welds, gravity, length, breaks,
+                                              resolved_frequency));
              },
              nb::arg("parent"), nb::arg("joint"), nb::arg("bodies"), nb::arg("q0"), nb::arg("hinges"), nb::arg("loads"),
              nb::arg("drives"), nb::arg("holds"), nb::arg("welds"), nb::arg("gravity"), nb::arg("length"),
-             nb::arg("breaks"));
+             nb::arg("breaks"), nb::arg("resolved_frequency"));
 }
 
 }  // namespace CRUMPLE_ARITHMETIC

@@ -22,6 +22,7 @@ class _Planar:
             gravity: Sequence[float],
             length: float,
             breaks: Sequence[float],
+            resolved_frequency: float,
         ) -> None: ...
 
     class Simulation:

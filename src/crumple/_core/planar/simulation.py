@@ -125,6 +125,8 @@ class TreeModel:
     """Length [m] that converts translations of free bodies to angles in the error measure."""
     breaks: Floats = field(default_factory=lambda: np.empty(0))
     """Times [s] at which steps end: jumps and kinks of loads and drives, increasing, (n,)."""
+    resolved_frequency: float = math.inf
+    """Frequency [Hz] above which vibration of elastic hinges does not count in the error measure."""
 
     @property
     def dofs(self) -> int:
@@ -282,6 +284,7 @@ def kernel_model(model: TreeModel, kind: Callable[..., Any] | None = None) -> An
         list(model.gravity),
         model.length,
         model.breaks.tolist(),
+        model.resolved_frequency,
     )
 
 

@@ -1,4 +1,4 @@
-"""Mitred corner of two rectangular tubes out of its plane: an estimate with constants fitted to shells.
+"""Mitred corner of two rectangular or round tubes out of its plane: an estimate, fitted to shells.
 
 By mirror symmetry about the plane of the mitre the principal directions of a corner are its bisector and the
 tangent across it. With the angle alpha between the members, s = sin(alpha/2) and c = cos(alpha/2), a moment M
@@ -16,6 +16,12 @@ shells say k in place of 2:
 
 B is the straight tube's moment (Kecman). Elastic stiffness of the corner's own about the bisector: K = q E
 t^2 a cot^2(alpha/2). Limits: alpha -> 0 gives the member in bending and in torsion; thin walls give s M = D.
+
+Round tubes of the mean radius R distort like a square tube of the same mid-line, a = pi R/2 (quarters of the
+ring in place of walls), with the same k. Their torque T = 2 pi R^2 t sigma_y/sqrt(3) does not fall, B is the
+law of their free fold, and
+
+    D = k sigma_y (a t)^(3/2) (1 - (1 - g (t/R)^(1/3)) exp(-theta/theta_2)),    K = q E t^2 R/(s^2 c)
 """
 
 from __future__ import annotations
@@ -29,16 +35,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
+from crumple.hinge.bending.estimate import automatic_type
 from crumple.hinge.bending.kecman import KecmanLaw
 from crumple.hinge.corner.in_plane import LARGEST, SMALLEST
-from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
+from crumple.hinge.corner.round_corner import slender_trust
+from crumple.hinge.law import HingeLaw, SofteningVariable, Source, Trust, Validity
 from crumple.hinge.options import choice
 from crumple.hinge.rate import HingeRate, rate_factor
+from crumple.hinge.registry import build_law
 from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.registry.quantity import PositiveAngle
-from crumple.section import Axis, RectangularTube, Section
+from crumple.section import Axis, CircularTube, RectangularTube, Section
 
 SOURCE = Source(
     "corner out of its plane: torsion and bending of its members, distortion of the section at the mitre",
@@ -50,8 +59,10 @@ DISTORTION = 1.75
 """k of the torque that distorts the section at the mitre [-]."""
 FALL, TURN = 0.5, 47.0
 """m [-] and r [rad] of the fall of the torque."""
-STIFFNESS = 0.67
-"""q of the elastic stiffness [-]."""
+STIFFNESS, ROUND_STIFFNESS = 0.67, 0.50
+"""q of the elastic stiffness of rectangular and of round tubes [-]."""
+EARLY, SETTLED = 1.27, 0.034
+"""g [-] and theta_2 [rad]: how a round tube begins to distort."""
 REACH = math.radians(30.0)
 """Rotation up to which the corners were solved by shells."""
 UNCERTAINTY = 0.25
@@ -67,7 +78,7 @@ class About(Enum):
 
 @dataclass(frozen=True)
 class MitredCornerAcrossLaw:
-    """Corner of two rectangular tubes out of its plane, about a principal direction: an estimate from shells.
+    """Corner of two rectangular or round tubes out of its plane, about a principal direction: an estimate.
 
     Attributes
     ----------
@@ -76,9 +87,9 @@ class MitredCornerAcrossLaw:
     slope
         s, sine of half the angle between the members [-].
     torque, falling
-        Plastic torque of the members [N m], and the rotation from which it falls [rad].
-    distortion
-        D, torque that distorts the section at the mitre [N m].
+        Plastic torque of the members [N m], and the rotation from which it falls [rad], inf: it does not.
+    distortion, early
+        D, torque that distorts the section at the mitre [N m], and the share of it at the start [-].
     tube
         Law of the straight member in bending about its axis in the corner's plane.
     elastic_stiffness
@@ -101,7 +112,8 @@ class MitredCornerAcrossLaw:
     torque: float
     falling: float
     distortion: float
-    tube: KecmanLaw
+    early: float
+    tube: HingeLaw
     elastic_stiffness: float | None
     validity: Validity
 
@@ -120,7 +132,7 @@ class MitredCornerAcrossLaw:
         Parameters
         ----------
         section
-            Rectangular tube, of both members.
+            Rectangular or circular tube, of both members.
         material
             Yield stress and elastic modulus.
         axis
@@ -133,31 +145,42 @@ class MitredCornerAcrossLaw:
         Raises
         ------
         InputError
-            If the section is not a rectangular tube, or the angle is outside 5 to 100 degrees.
+            If the section is no such tube, or the angle is outside 5 to 100 degrees.
         """
-        if not isinstance(section, RectangularTube):
-            what, allowed = "no estimate of a corner out of its plane", "a rectangular tube"
+        if not isinstance(section, RectangularTube | CircularTube):
+            what, allowed = "no estimate of a corner out of its plane", "a rectangular or circular tube"
             todo = "use the law of the member, or one from shells"
             raise InputError(Problem(what, section.title, allowed, todo, "section"))
         if not SMALLEST <= angle <= LARGEST:
             what, came = "no estimate of a corner of this angle out of its plane", math.degrees(angle)
             todo = "use the law of the member, or one from shells"
             raise InputError(Problem(what, f"{came:.4g} deg", "5 to 100 deg", todo, "angle"))
-        wall, direction = section.thickness, choice("about", about, About)
-        width, depth = section.width - wall, section.depth - wall
-        mean = math.sqrt(width * depth)
-        bends = direction is About.BISECTOR
+        s, wall, stress = math.sin(angle / 2.0), section.thickness, material.yield_stress
+        if isinstance(section, CircularTube):
+            radius = (section.diameter - wall) / 2.0
+            enclosed, mean = math.pi * radius**2, math.pi * radius / 2.0
+            falling, early = math.inf, min(1.0, EARLY * (wall / radius) ** (1.0 / 3.0))
+            tube = build_law(automatic_type(section, material, axis, "free"), section, material, axis)
+            shape = ROUND_STIFFNESS * radius / (s**2 * math.sqrt(1.0 - s**2))
+            warnings, band = slender_trust(section, UNCERTAINTY)
+        else:
+            width, depth = section.width - wall, section.depth - wall
+            enclosed, mean = width * depth, math.sqrt(width * depth)
+            falling, early = TURN * (wall / max(width, depth)) ** 2, 1.0
+            tube = KecmanLaw.of(section, material, axis, after_jamming="hold")
+            shape = STIFFNESS * mean / math.tan(angle / 2.0) ** 2
+            warnings, band = (), UNCERTAINTY
+        direction = choice("about", about, About)
         return cls(
             direction,
-            math.sin(angle / 2.0),
-            2.0 * width * depth * wall * material.yield_stress / math.sqrt(3.0),
-            TURN * (wall / max(width, depth)) ** 2,
-            DISTORTION * material.yield_stress * (mean * wall) ** 1.5,
-            KecmanLaw.of(section, material, axis, after_jamming="hold"),
-            STIFFNESS * material.youngs_modulus * wall**2 * mean / math.tan(angle / 2.0) ** 2
-            if bends
-            else None,
-            Validity(REACH, "corners of other proportions were solved by shells that far", (), UNCERTAINTY),
+            s,
+            2.0 * enclosed * wall * stress / math.sqrt(3.0),
+            falling,
+            DISTORTION * stress * (mean * wall) ** 1.5,
+            early,
+            tube,
+            material.youngs_modulus * wall**2 * shape if direction is About.BISECTOR else None,
+            Validity(REACH, "corners of other proportions were solved by shells that far", warnings, band),
         )
 
     @property
@@ -174,7 +197,7 @@ class MitredCornerAcrossLaw:
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
         """Rotations where the slope jumps [rad]."""
-        return tuple(sorted({*self.tube.kinks(sense), self.falling}))
+        return tuple(sorted({*self.tube.kinks(sense), *((self.falling,) if self.falling < math.inf else ())}))
 
     def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
@@ -185,7 +208,8 @@ class MitredCornerAcrossLaw:
         if self.about is About.TANGENT:
             uses = (along / torque) ** 2 + (s / bending) ** 2
         else:
-            uses = (s / self.distortion) ** 2 + (s / torque) ** 2 + (along / bending) ** 2
+            distortion = self.distortion * (1.0 - (1.0 - self.early) * np.exp(-turned / SETTLED))
+            uses = (s / distortion) ** 2 + (s / torque) ** 2 + (along / bending) ** 2
         return np.asarray(uses**-0.5, np.float64)
 
     def rate_factor(self, rotation_rate: ArrayLike) -> Floats:

@@ -101,7 +101,11 @@ class RoundCornerLaw(InPlaneLaw):
             tube,
             closing,
             STIFFNESS * material.youngs_modulus * wall**2 * radius / (s**2 * (1.0 - s**2) ** 1.5),
-            Validity(REACH, "corners of other tubes were solved by shells that far", *_trust(section)),
+            Validity(
+                REACH,
+                "corners of other tubes were solved by shells that far",
+                *slender_trust(section, UNCERTAINTY),
+            ),
             1.0 - (1.0 - CLOSING) * min(1.0, angle / WHOLE),
         )
 
@@ -119,9 +123,9 @@ class RoundCornerLaw(InPlaneLaw):
         return rounded(opened, (1.0 + OPENING * self.slope) * fold)
 
 
-def _trust(section: CircularTube) -> tuple[tuple[str, ...], float | None]:
+def slender_trust(section: CircularTube, band: float) -> tuple[tuple[str, ...], float | None]:
     """Warnings on walls of other proportions than those that were solved by shells, and the band."""
     slender, (least, most) = section.diameter / section.thickness, SLENDER
     if least <= slender <= most:
-        return (), UNCERTAINTY
+        return (), band
     return (f"diameter over thickness is {slender:.3g}, corners of {least:g} to {most:g} were solved",), None

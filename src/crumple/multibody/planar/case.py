@@ -17,6 +17,7 @@ from crumple.multibody.bodies.initial_motion import InitialMotion
 from crumple.multibody.bodies.linkage import FREEDOM
 from crumple.multibody.planar.mechanism import Mechanism, hinge_links, lower
 from crumple.multibody.planar.model import planar_initial_motion, tree_model
+from crumple.multibody.run import Run
 from crumple.numeric.arrays import Floats
 from crumple.structure import Structure
 
@@ -141,7 +142,7 @@ def recorded_hinges(mechanism: Mechanism) -> tuple[RecordedHinge, ...]:
     )
 
 
-def planar_case(structure: Structure, duration: float) -> PlanarCase:
+def planar_case(structure: Structure, run: Run) -> PlanarCase:
     """Lower a structure for the planar kernel.
 
     Raises
@@ -152,5 +153,6 @@ def planar_case(structure: Structure, duration: float) -> PlanarCase:
     mechanism = lower(structure)
     if not mechanism.bodies:
         raise InputError("nothing can move: every part is held and no member has a hinge")
-    model = tree_model(structure, mechanism, duration)
+    frequency = run.settings.resolved_frequency
+    model = tree_model(structure, mechanism, run.duration, resolved_frequency=frequency)
     return PlanarCase(structure, mechanism, model, planar_initial_motion(structure, mechanism))

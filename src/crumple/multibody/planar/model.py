@@ -33,7 +33,9 @@ ACROSS = 1e-6
 """Share of a driven or initial motion that may point out of the plane: rounding of directions."""
 
 
-def tree_model(structure: Structure, mechanism: Mechanism, duration: float) -> TreeModel:
+def tree_model(
+    structure: Structure, mechanism: Mechanism, duration: float, *, resolved_frequency: float = math.inf
+) -> TreeModel:
     """Constants of the kernel's model.
 
     Parameters
@@ -42,6 +44,8 @@ def tree_model(structure: Structure, mechanism: Mechanism, duration: float) -> T
         The structure and its mechanism.
     duration
         Functions of time are sampled over it [s].
+    resolved_frequency
+        Vibration of elastic hinges above it [Hz] does not shorten the steps.
     """
     plane = mechanism.plane
     return TreeModel(
@@ -54,6 +58,7 @@ def tree_model(structure: Structure, mechanism: Mechanism, duration: float) -> T
         gravity=_pair(plane.flat(np.asarray(structure.gravity, float))),
         length=max(structure.frame_of(name).length for name in structure.members),
         breaks=breaks_of(structure, duration),
+        resolved_frequency=resolved_frequency,
     )
 
 

@@ -38,7 +38,10 @@ class TreeSolver:
     def __init__(self, structure: Structure, run: Run, hinges: tuple[PlacedHinge, ...]) -> None:
         self._structure, self._run = structure, run
         self.mechanism: Mechanism = lower(structure, hinges)
-        self._model = tree_model(structure, self.mechanism, run.duration)
+        frequency = run.settings.resolved_frequency
+        self._model = tree_model(
+            structure, self.mechanism, run.duration, resolved_frequency=frequency
+        )
         self._start = planar_initial_motion(structure, self.mechanism)
 
     @cached_property

@@ -214,7 +214,8 @@ def spatial_case(structure: Structure, run: Run) -> SpatialCase:
     longest = max(stage.duration for stage in stages)
     owners = tuple(name for name, _ in support_drives(structure, linkage, longest))
     frequency = run.settings.resolved_frequency
-    plain = spatial_model(structure, linkage, longest, resolved_frequency=frequency)
+    still = any(stage.kind == "quasi-static" for stage in stages)
+    plain = spatial_model(structure, linkage, longest, resolved_frequency=frequency, still=still)
     touching = with_obstacles(structure, linkage, plain, owners, stages)
     centres, unmoved = dead_centres(linkage), touching.model
     touching = replace(touching, model=off_dead_centres(unmoved, linkage, centres)[0])

@@ -37,8 +37,18 @@ COUPLINGS = {
 }
 
 
+STILL = 3.0
+"""Factor on the dampers of elastic members in runs with quasi-static stages: a decay that is much faster than the
+push must be resolved where the push sets in, and these decays are a third as fast."""
+
+
 def spatial_model(
-    structure: Structure, linkage: Linkage, duration: float, *, resolved_frequency: float = math.inf
+    structure: Structure,
+    linkage: Linkage,
+    duration: float,
+    *,
+    resolved_frequency: float = math.inf,
+    still: bool = False,
 ) -> SpatialModel:
     """Constants of the kernel's model, without obstacles.
 
@@ -50,12 +60,14 @@ def spatial_model(
         Functions of time are sampled over it [s].
     resolved_frequency
         Vibration of elastic hinges above it [1/s] does not shorten steps.
+    still
+        Whether the run has quasi-static stages.
     """
     x, y, z = structure.gravity
     return SpatialModel(
         bodies=tuple(SpatialBody(body.mass, body.inertia, body.centre) for body in linkage.bodies),
         joints=tuple(_joint(connection) for connection in linkage.connections),
-        hinges=kernel_hinges(linkage),
+        hinges=kernel_hinges(linkage, still=still),
         loads=tuple(_loads(structure, linkage, duration)),
         drives=tuple(drive for _, drive in support_drives(structure, linkage, duration)),
         gravity=(x, y, z),
@@ -66,13 +78,17 @@ def spatial_model(
 
 
 def kernel_hinges(
-    linkage: Linkage, made: MutableMapping[PlacedHinge, SpatialHinge] | None = None
+    linkage: Linkage, made: MutableMapping[PlacedHinge, SpatialHinge] | None = None, *, still: bool = False
 ) -> tuple[SpatialHinge, ...]:
-    """Hinges of the kernel's model; those that a linkage with the same connections `made` are taken."""
+    """Hinges of the kernel's model; those that a linkage with the same connections `made` are taken.
+
+    `still`: as of `spatial_model`.
+    """
     kept: MutableMapping[PlacedHinge, SpatialHinge] = {} if made is None else made
     for i, connection in enumerate(linkage.connections):
         if connection.hinge is not None and connection.hinge not in kept:
-            kept[connection.hinge] = _hinge(i, connection)
+            own = _hinge(i, connection)
+            kept[connection.hinge] = _stilled(own) if still and not connection.hinge.plastic else own
     return tuple(kept[hinge] for hinge in linkage.hinges)
 
 
@@ -125,6 +141,12 @@ def _hinge(joint: int, connection: Connection) -> SpatialHinge:
         spatial.shear_loss,
         spatial.round_shear,
     )
+
+
+def _stilled(joint: SpatialHinge) -> SpatialHinge:
+    """A joint of an elastic member with the dampers of a run with quasi-static stages."""
+    parts = (replace(part, viscous_damping=STILL * part.viscous_damping) for part in joint.components)
+    return replace(joint, components=tuple(parts))
 
 
 def _part(spatial: SpatialHingeRecord, part: HingeComponent) -> SpatialComponent:

@@ -80,7 +80,9 @@ class SpatialSolver:
         refuse_floating(structure, self.linkage, self._stages)
         longest = max(stage.duration for stage in self._stages)
         frequency = run.settings.resolved_frequency
-        plain = spatial_model(structure, self.linkage, longest, resolved_frequency=frequency)
+        plain = spatial_model(
+            structure, self.linkage, longest, resolved_frequency=frequency, still=self._still
+        )
         owners = tuple(name for name, _ in support_drives(structure, self.linkage, longest))
         touching = with_obstacles(structure, self.linkage, plain, owners, self._stages)
         self._model, self._dead_centres = touching.model, dead_centres(self.linkage)
@@ -92,6 +94,11 @@ class SpatialSolver:
         self._steps: Any = None
         self._guide: Any = None
         self._lead: Any = None
+
+    @property
+    def _still(self) -> bool:
+        """Whether the run has quasi-static stages."""
+        return any(stage.kind == "quasi-static" for stage in self._stages)
 
     @property
     def moving(self) -> bool:
@@ -112,7 +119,7 @@ class SpatialSolver:
         """See `Solver`; bodies, contacts, dead centres and what the runs so far needed are shared."""
         other = copy(self)
         other.linkage = with_laws(self.linkage, hinges)
-        own = kernel_hinges(other.linkage, self._changed)
+        own = kernel_hinges(other.linkage, self._changed, still=self._still)
         model = replace(self._model, hinges=(*own, *self._model.hinges[len(own) :]))
         other._model, other._touching = model, replace(self._touching, model=model)
         other._touch(aside=self._aside, crushing=self._crushing)
@@ -152,7 +159,7 @@ class SpatialSolver:
         longest, least_parts = step_bounds(self._run, ends_only=ends_only)
         if not ends_only and self._run.every / 2 < settings.minimum_time_step:
             raise _too_close(self._run.every, settings.minimum_time_step)
-        if not ends_only and any(stage.kind == "quasi-static" for stage in self._stages):
+        if not ends_only and self._still:
             longest = min(longest, self._run.every / 2)
         simulation = SpatialSimulation(
             model, accuracy, settings.minimum_time_step, longest, parts=least_parts
@@ -268,7 +275,7 @@ class SpatialSolver:
             energy=ledger(
                 record,
                 touched=bool(self._touching.model.capsules),
-                slowed=any(stage.kind == "quasi-static" for stage in self._stages),
+                slowed=self._still,
             ),
             stepping_seconds=seconds,
             spread=spread_energy(recorded_hinges(self.linkage, self._touching.model), record),

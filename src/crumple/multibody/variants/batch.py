@@ -208,7 +208,7 @@ class PlanarBatch(Batch):
         """See `Batch`."""
         if moved:
             refuse_spatial(structure, self.run)
-        return planar_case(structure, self.run.duration)
+        return planar_case(structure, self.run)
 
     def solve_many(
         self, variants: Variants[Any], threads: int, poll: Poll | None, led: bool, times: Sequence[float]

@@ -105,9 +105,9 @@ def test_a_capacity_factor_is_another_moment():
 def test_laws_are_sampled_once_for_each_distinct_combination(tube, monkeypatch):
     made = []
 
-    def counted(structure, duration):
+    def counted(structure, run):
         made.append(structure)
-        return planar_case(structure, duration)
+        return planar_case(structure, run)
 
     monkeypatch.setattr("crumple.multibody.variants.batch.planar_case", counted)
     yields = np.array([400e6, 450e6, 400e6, 450e6] * 5)
@@ -198,9 +198,9 @@ def test_one_parameter_may_stand_by_itself(tube):
 def test_variants_can_be_stopped_and_followed_while_they_are_prepared(tube, monkeypatch):
     made, shares = [], []
 
-    def counted(structure, duration):
+    def counted(structure, run):
         made.append(structure)
-        return planar_case(structure, duration)
+        return planar_case(structure, run)
 
     monkeypatch.setattr("crumple.multibody.variants.batch.planar_case", counted)
     walls = {"sections.tube.thickness": np.linspace(0.0019, 0.0021, 10)}
