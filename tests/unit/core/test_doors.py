@@ -35,7 +35,7 @@ import numpy as np
 from crumple._core import _kernels
 k = _kernels.planar
 body = np.array([[0.0, 0, 0, 0, 1, 1]])
-one = (np.array([-1]), np.array([0]), body, [0.0], [], [], [], [], [], [0.0, 0.0], 1.0, [])
+one = (np.array([-1]), np.array([0]), body, [0.0], [], [], [], [], [], [0.0, 0.0], 1.0, [], 500.0)
 def changed(index, value):
     return k.Model(*one[:index], value, *one[index + 1:])
 run = k.Simulation(k.Model(*one), 1e-3, 1e-9, 1e-3)
@@ -114,6 +114,8 @@ CALLS = {
         "changed(11, [1e-3, float('inf')])",
         "changed(11, [2e-3, 1e-3])",
         "changed(11, [1e-3, 1e-3])",
+        "changed(12, 0.0)",
+        "changed(12, float('nan'))",
         "changed(0, np.array([2**40]))",
         "changed(1, np.array([7]))",
         "changed(2, np.array([[0.0, 0, 0, 0, float('nan'), 1]]))",

@@ -46,15 +46,16 @@ def portal(**settings):
 def test_a_run_that_loses_energy_is_repeated_with_a_finer_accuracy(monkeypatch):
     with monkeypatch.context() as patch:
         patch.setattr(solve, "FINER", ())
-        coarse = crumple.solve(portal())
+        coarse = crumple.solve(portal(energy_residual_bound=5e-7))
     assert coarse.status is crumple.Status.RESIDUAL_EXCEEDED
-    result = crumple.solve(portal())
+    result = crumple.solve(portal(energy_residual_bound=5e-7))
     assert result.status is crumple.Status.COMPLETE
     assert result.provenance.settings["accuracy_used"] == pytest.approx(1e-4)
     assert result.provenance.settings["accuracy"] == 1e-3
     for name, hinge in result.hinges.items():
-        assert hinge.rotation_max == pytest.approx(coarse.hinges[name].rotation_max, abs=2e-4)
-        assert hinge.rotation_error < coarse.hinges[name].rotation_error
+        stated = coarse.hinges[name].rotation_error + hinge.rotation_error
+        assert 0.0 < stated < 1e-3
+        assert hinge.rotation_max == pytest.approx(coarse.hinges[name].rotation_max, abs=stated)
 
 
 def test_a_bound_that_a_hundredth_of_the_accuracy_does_not_keep_is_still_told():

@@ -8,9 +8,9 @@ then harmonic vibration of amplitude x_y about the residual; for r <= 1 it stays
 the requested accuracy, 1e-4 of the largest rotation; the elastic vibration itself keeps its energy to
 rounding.
 
-Two wheels, the second on the first by a stiff spring: slow motion with a fast vibration on it, which does not
-shorten the steps.  The mass matrix of (q1, q2) is [[I1 + I2, I2], [I2, I2]], the stiffness diag(k1, k2).  Both
-start with a rate.  A mode above the resolved frequency keeps its energy, the slow one phase and amplitude.
+Two wheels, the second on the first by a stiff spring: slow motion with a fast vibration on it, which does
+not shorten the steps.  The mass matrix of (q1, q2) is [[I1 + I2, I2], [I2, I2]], the stiffness diag(k1, k2).
+Both start with a rate.  A mode above the resolved frequency keeps its energy, the slow one also its phase.
 
 Kind: closed form.  Source: derived here.
 """

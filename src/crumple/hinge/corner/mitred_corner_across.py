@@ -18,8 +18,8 @@ B is the straight tube's moment (Kecman). Elastic stiffness of the corner's own 
 t^2 a cot^2(alpha/2). Limits: alpha -> 0 gives the member in bending and in torsion; thin walls give s M = D.
 
 Round tubes of the mean radius R distort like a square tube of the same mid-line, a = pi R/2 (quarters of the
-ring in place of walls), with the same k. Their torque T = 2 pi R^2 t sigma_y/sqrt(3) does not fall, B is the
-law of their free fold, and
+ring in place of walls), with the same k. Their torque T_p = 2 pi R^2 t sigma_y/sqrt(3) falls about the
+tangent alone, with other m and r, theta_1 = r (t/a)^2, B is the law of their free fold, and
 
     D = k sigma_y (a t)^(3/2) (1 - (1 - g (t/R)^(1/3)) exp(-theta/theta_2)),    K = q E t^2 R/(s^2 c)
 """
@@ -58,15 +58,17 @@ SOURCE = Source(
 DISTORTION = 1.75
 """k of the torque that distorts the section at the mitre [-]."""
 FALL, TURN = 0.5, 47.0
-"""m [-] and r [rad] of the fall of the torque."""
-STIFFNESS, ROUND_STIFFNESS = 0.67, 0.50
+"""m [-] and r [rad] of the fall of the torque of rectangular tubes."""
+ROUND_FALL, ROUND_TURN = 1.75, 130.0
+"""m and r of round tubes about the tangent; about the bisector their torque does not fall."""
+STIFFNESS, ROUND_STIFFNESS = 0.67, 0.51
 """q of the elastic stiffness of rectangular and of round tubes [-]."""
-EARLY, SETTLED = 1.27, 0.034
+EARLY, SETTLED = 1.30, 0.039
 """g [-] and theta_2 [rad]: how a round tube begins to distort."""
 REACH = math.radians(30.0)
 """Rotation up to which the corners were solved by shells."""
-UNCERTAINTY = 0.25
-"""Half-width of the band [-]; see the table in the theory page."""
+UNCERTAINTY, ROUND_UNCERTAINTY = 0.25, 0.20
+"""Half-width of the band of rectangular and of round tubes [-]; see the tables in the theory page."""
 
 
 class About(Enum):
@@ -86,8 +88,8 @@ class MitredCornerAcrossLaw:
         Direction of the moment.
     slope
         s, sine of half the angle between the members [-].
-    torque, falling
-        Plastic torque of the members [N m], and the rotation from which it falls [rad], inf: it does not.
+    torque, falling, fall
+        Plastic torque of the members [N m], the rotation from which it falls [rad], and m of its fall [-].
     distortion, early
         D, torque that distorts the section at the mitre [N m], and the share of it at the start [-].
     tube
@@ -111,6 +113,7 @@ class MitredCornerAcrossLaw:
     slope: float
     torque: float
     falling: float
+    fall: float
     distortion: float
     early: float
     tube: HingeLaw
@@ -155,31 +158,34 @@ class MitredCornerAcrossLaw:
             what, came = "no estimate of a corner of this angle out of its plane", math.degrees(angle)
             todo = "use the law of the member, or one from shells"
             raise InputError(Problem(what, f"{came:.4g} deg", "5 to 100 deg", todo, "angle"))
+        direction = choice("about", about, About)
+        bends = direction is About.BISECTOR
         s, wall, stress = math.sin(angle / 2.0), section.thickness, material.yield_stress
         if isinstance(section, CircularTube):
             radius = (section.diameter - wall) / 2.0
             enclosed, mean = math.pi * radius**2, math.pi * radius / 2.0
-            falling, early = math.inf, min(1.0, EARLY * (wall / radius) ** (1.0 / 3.0))
+            falling, fall = ROUND_TURN * (wall / mean) ** 2, 0.0 if bends else ROUND_FALL
+            early = min(1.0, EARLY * (wall / radius) ** (1.0 / 3.0))
             tube = build_law(automatic_type(section, material, axis, "free"), section, material, axis)
             shape = ROUND_STIFFNESS * radius / (s**2 * math.sqrt(1.0 - s**2))
-            warnings, band = slender_trust(section, UNCERTAINTY)
+            warnings, band = slender_trust(section, ROUND_UNCERTAINTY)
         else:
             width, depth = section.width - wall, section.depth - wall
             enclosed, mean = width * depth, math.sqrt(width * depth)
-            falling, early = TURN * (wall / max(width, depth)) ** 2, 1.0
+            falling, fall, early = TURN * (wall / max(width, depth)) ** 2, FALL, 1.0
             tube = KecmanLaw.of(section, material, axis, after_jamming="hold")
             shape = STIFFNESS * mean / math.tan(angle / 2.0) ** 2
             warnings, band = (), UNCERTAINTY
-        direction = choice("about", about, About)
         return cls(
             direction,
             s,
             2.0 * enclosed * wall * stress / math.sqrt(3.0),
             falling,
+            fall,
             DISTORTION * stress * (mean * wall) ** 1.5,
             early,
             tube,
-            material.youngs_modulus * wall**2 * shape if direction is About.BISECTOR else None,
+            material.youngs_modulus * wall**2 * shape if bends else None,
             Validity(REACH, "corners of other proportions were solved by shells that far", warnings, band),
         )
 
@@ -197,13 +203,13 @@ class MitredCornerAcrossLaw:
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
         """Rotations where the slope jumps [rad]."""
-        return tuple(sorted({*self.tube.kinks(sense), *((self.falling,) if self.falling < math.inf else ())}))
+        return tuple(sorted({*self.tube.kinks(sense), self.falling}))
 
     def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
         turned, s = np.asarray(rotation, float), self.slope
         along = math.sqrt(1.0 - s**2)
-        torque = self.torque * np.minimum(1.0, self.falling / np.maximum(turned, 1e-300)) ** FALL
+        torque = self.torque * np.minimum(1.0, self.falling / np.maximum(turned, 1e-300)) ** self.fall
         bending = self.tube.moment_capacity(turned, 1)
         if self.about is About.TANGENT:
             uses = (along / torque) ** 2 + (s / bending) ** 2

@@ -39,9 +39,7 @@ class TreeSolver:
         self._structure, self._run = structure, run
         self.mechanism: Mechanism = lower(structure, hinges)
         frequency = run.settings.resolved_frequency
-        self._model = tree_model(
-            structure, self.mechanism, run.duration, resolved_frequency=frequency
-        )
+        self._model = tree_model(structure, self.mechanism, run.duration, resolved_frequency=frequency)
         self._start = planar_initial_motion(structure, self.mechanism)
 
     @cached_property

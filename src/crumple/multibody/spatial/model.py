@@ -38,8 +38,8 @@ COUPLINGS = {
 
 
 STILL = 3.0
-"""Factor on the dampers of elastic members in runs with quasi-static stages: a decay that is much faster than the
-push must be resolved where the push sets in, and these decays are a third as fast."""
+"""Factor on the dampers of elastic members in runs with quasi-static stages: decays that are much faster than
+a push must be resolved as it sets in."""
 
 
 def spatial_model(

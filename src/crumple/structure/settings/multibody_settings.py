@@ -23,8 +23,8 @@ class MultibodySettings(Spec):
     segments: Annotated[int, Field(ge=2, le=MOST_SEGMENTS)] = SEGMENTS
     """Segments of each elastic member; a member that states its own keeps them."""
     resolved_frequency: PositiveFrequency = 500.0
-    """Vibration of elastic hinges and members above it does not shorten the steps; it keeps its energy, but not
-    its phase."""
+    """Vibration of elastic hinges and members above it does not shorten the steps; it keeps its energy, but
+    not its phase."""
     accuracy: Accuracy = 1e-3
     """Relative error allowed in the rotations."""
     minimum_time_step: PositiveTime = 1e-9

@@ -11,7 +11,7 @@ from crumple.analysis import loads
 from crumple.errors import InputError
 from crumple.hinge import Trust, build_law
 from crumple.material import Material
-from crumple.section import CircularTube, RectangularTube
+from crumple.section import Channel, RectangularTube
 from crumple.structure import plastic_hinges
 
 STEEL = Material("steel", 210e9, 0.3, 7850.0, 350e6)
@@ -161,7 +161,7 @@ def test_thin_corners_carry_little_about_their_bisector_and_none_more_than_its_m
 
 def test_other_sections_angles_and_directions_have_no_estimate_out_of_the_plane():
     with pytest.raises(InputError, match="no estimate of a corner out of its plane"):
-        build_law("mitred_corner_across", CircularTube(0.050, 0.002), STEEL, "y", angle=RIGHT)
+        build_law("mitred_corner_across", Channel(0.050, 0.050, 0.002), STEEL, "y", angle=RIGHT)
     with pytest.raises(InputError, match="no estimate of a corner of this angle"):
         across(110.0)
     with pytest.raises(InputError, match="unknown choice"):
