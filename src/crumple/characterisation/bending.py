@@ -33,6 +33,9 @@ OUTPUTS = 400
 """Points in time at which a sub-model is measured, at most."""
 OVERSHOOT, ELASTIC_TURN = 1.15, math.radians(5.0)
 """End rotation: plastic rotation of the law times the one plus the other; the piece also bends elsewhere."""
+UNFOLDED, SPREAD = 0.98, 0.25
+"""Moment at the end over the largest one from which nothing has folded, and the least share of the rotation
+of the law that must then be between the planes of measurement."""
 STARTING = 200
 """Straight pieces of the first half of the turn; the speed changes by at most 0.8 % from one to the next."""
 RISE = (0.05, 0.3)
@@ -211,7 +214,9 @@ class Bending:
             If nothing folded between the planes; of a corner `StrongCornerError`.
         """
         plastic, moment, flexibility = self._plastic(result)
-        if plastic.max() < 0.5 * self.largest:
+        # thick walls that harden yield along the whole sub-model and do not fold: their law ends earlier
+        unfolded = self.angle is None and moment[-1] > UNFOLDED * moment.max()
+        if plastic.max() < (SPREAD if unfolded else 0.5) * self.largest:
             came = f"{math.degrees(plastic.max()):.2g} deg between the planes of measurement"
             if self.angle is not None:
                 what = "the corner is as strong as its members: the sub-model folded beside it"

@@ -131,6 +131,30 @@ def test_a_sub_model_that_folds_outside_its_gauge_is_refused_with_the_reason(ang
         model.curve(history)
 
 
+@pytest.mark.parametrize(("last", "ends"), [(1.0, True), (0.9, False)])
+def test_walls_that_yield_everywhere_without_folding_have_a_law_that_ends_earlier(last, ends):
+    """A third of the rotation between the planes: a law if the moment is kept, a fold elsewhere if not."""
+    model = Bending(TUBE, STEEL)
+    turned = np.linspace(0.0, model.turn, 200)
+    moment = 900.0 * np.minimum(1.0, turned / 0.02)
+    moment[-20:] = np.linspace(900.0, last * 900.0, 20)
+    aside = 0.35 * np.maximum(turned - 0.02, 0.0) + 0.4 * np.minimum(turned, 0.02)
+    history = {
+        "first": aside,
+        "second": aside,
+        "node.turned.rotation.y": turned,
+        "support.held.moment.y": moment,
+        "support.turned.moment.y": -moment,
+    }
+    if not ends:
+        with pytest.raises(InputError, match="folded elsewhere"):
+            model.curve(history)
+        return
+    curve = model.curve(history)
+    assert 0.25 * model.largest < curve.rotation[-1] < 0.5 * model.largest
+    assert curve.moment[-1] == pytest.approx(900.0, rel=1e-3)
+
+
 @pytest.mark.parametrize("axis", ["y", "z"])
 @pytest.mark.parametrize("degrees", [30.0, 90.0, 100.0])
 @pytest.mark.parametrize("kind", [Bending, OutOfPlane])

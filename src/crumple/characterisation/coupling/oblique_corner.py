@@ -5,8 +5,8 @@ laws of both on an ellipsoid, with the flow along its normal,
 
     M^-2 = (cos/C_u)^2 + (sin/C_n)^2        du : dn = cos/C_u^2 : sin/C_n^2,
 
-and both capacities soften with the common measure of docs/theory/spatial_hinge.md; of rectangular tubes
-the centre of the ellipsoid moves as in docs/theory/mitred_corner.md.
+and both capacities soften with the common measure of docs/theory/spatial_hinge.md; of tubes the centre of
+the ellipsoid moves as in docs/theory/mitred_corner.md.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Shift of the yield set of a mitred corner of two rectangular tubes, in the sense in which the corner opens.
+"""Shift of the yield set of a mitred corner of two tubes, in the sense in which the corner opens.
 
 Shells that turn a corner about a moment between its bisector and the normal of its plane carry more if it
 opens and less if it closes, and close a corner that is turned about its bisector alone. With the moments M_n
@@ -10,6 +10,8 @@ has its centre at a share of its half axis in closing. The share grows with the 
 bisector, and vanishes for members in line, where both senses are alike:
 
     share = g sin(alpha) (1 - exp(-theta/theta_1)),    theta_1 = r t/a,    a = sqrt(b h)
+
+and for round tubes a = pi R/2, as for the distortion of their rings.
 """
 
 from __future__ import annotations
@@ -22,7 +24,7 @@ from numpy.typing import ArrayLike
 
 from crumple.hinge.corner.in_plane import LARGEST
 from crumple.numeric.arrays import Floats
-from crumple.section import RectangularTube, Section
+from crumple.section import CircularTube, RectangularTube, Section
 
 SHARE = 0.63
 """g, share of the shift of a right-angled corner that has folded far [-]."""
@@ -44,16 +46,20 @@ def corner_shift(section: Section, angle: float) -> Callable[[ArrayLike], Floats
     -------
     callable
         Share at rotations about the bisector, >= 0 [rad], of any shape; None if it is not known: of other
-        sections than rectangular tubes, and of corners steeper than those of the estimates.
+        sections than rectangular and circular tubes, and of corners steeper than those of the estimates.
 
     References
     ----------
     docs/theory/mitred_corner.md.  Derived here; constants fitted to corners solved by shells.  Verified in
     tests/verification/characterisation/test_shifted_corners.py.
     """
-    if not isinstance(section, RectangularTube) or angle > LARGEST:
+    if not isinstance(section, RectangularTube | CircularTube) or angle > LARGEST:
         return None
     wall = section.thickness
-    turn = TURN * wall / math.sqrt((section.width - wall) * (section.depth - wall))
+    if isinstance(section, CircularTube):
+        mean = math.pi * (section.diameter - wall) / 4.0
+    else:
+        mean = math.sqrt((section.width - wall) * (section.depth - wall))
+    turn = TURN * wall / mean
     largest = SHARE * math.sin(angle)
     return lambda rotation: np.asarray(largest * (1.0 - np.exp(-np.asarray(rotation, float) / turn)))

@@ -9,7 +9,7 @@ import pytest
 import crumple
 from crumple.hinge import Form
 from crumple.hinge.corner.shift import corner_shift
-from crumple.section import CircularTube, RectangularTube
+from crumple.section import Channel, CircularTube, RectangularTube
 from crumple.structure import placed_hinges
 from crumple.structure.hinges.corner.shift import with_corner_shift
 from crumple.structure.hinges.corner_laws import turned_corner
@@ -72,7 +72,12 @@ def test_the_share_grows_to_its_limit_and_vanishes_for_members_in_line():
     thick = corner_shift(RectangularTube(0.05, 0.05, 0.0032), math.pi / 2.0)
     assert thick(0.1) < share(0.1)
     assert corner_shift(TUBE, math.radians(5.0))(1.0) < 0.06
-    assert corner_shift(CircularTube(0.05, 0.002), math.pi / 2.0) is None
+    side = math.pi * 0.024 / 2.0 + 0.002
+    ring, square = (
+        corner_shift(one, 1.0)(0.1) for one in (CircularTube(0.05, 0.002), RectangularTube(side, side, 0.002))
+    )
+    assert ring == pytest.approx(square)
+    assert corner_shift(Channel(0.05, 0.05, 0.002), math.pi / 2.0) is None
     assert corner_shift(TUBE, math.radians(101.0)) is None
 
 

@@ -26,7 +26,7 @@ def with_corner_shift(record: SpatialHingeRecord, corner: Corner, section: Secti
         Its components: it is returned as it is unless they are the three rotations on an ellipsoid, and not
         regularised.
     corner, section
-        Where, and its section: rectangular tubes have a shift, in the range of their estimates.
+        Where, and its section: rectangular and round tubes have a shift, in the range of their estimates.
 
     References
     ----------
