@@ -33,9 +33,8 @@ OUTPUTS = 400
 """Points in time at which a sub-model is measured, at most."""
 OVERSHOOT, ELASTIC_TURN = 1.15, math.radians(5.0)
 """End rotation: plastic rotation of the law times the one plus the other; the piece also bends elsewhere."""
-UNFOLDED, SPREAD = 0.98, 0.25
-"""Moment at the end over the largest one from which nothing has folded, and the least share of the rotation
-of the law that must then be between the planes of measurement."""
+TURNING = 0.1
+"""Share of the rotation at the end that must be between the planes of measurement if little was before."""
 STARTING = 200
 """Straight pieces of the first half of the turn; the speed changes by at most 0.8 % from one to the next."""
 RISE = (0.05, 0.3)
@@ -214,9 +213,9 @@ class Bending:
             If nothing folded between the planes; of a corner `StrongCornerError`.
         """
         plastic, moment, flexibility = self._plastic(result)
-        # thick walls that harden yield along the whole sub-model and do not fold: their law ends earlier
-        unfolded = self.angle is None and moment[-1] > UNFOLDED * moment.max()
-        if plastic.max() < (SPREAD if unfolded else 0.5) * self.largest:
+        # thick walls that harden yield along the whole sub-model before they fold: their law ends earlier
+        late = self.angle is None and self._turning_share(result, plastic) > TURNING
+        if plastic.max() < 0.5 * self.largest and not late:
             came = f"{math.degrees(plastic.max()):.2g} deg between the planes of measurement"
             if self.angle is not None:
                 what = "the corner is as strong as its members: the sub-model folded beside it"
@@ -226,6 +225,12 @@ class Bending:
             raise InputError(Problem(what, came, "", todo, where=self.title))
         curve = law_curve(plastic, moment, self.largest)
         return curve if flexibility == 0.0 else curve.with_stiffness(1.0 / flexibility)
+
+    def _turning_share(self, result: Result, plastic: Floats) -> float:
+        """Share of the end's rotation that is between the planes in the last tenth of the times [-]."""
+        turned = self.sense * result[f"node.turned.rotation.{self.axis}"]
+        since = -max(len(turned) // 10, 2)
+        return float((plastic[-1] - plastic[since]) / (turned[-1] - turned[since]))
 
     def histories(self, result: Histories) -> tuple[Floats, Floats]:
         """Plastic rotation of the fold [rad] and moment [N m] at the times of the result."""

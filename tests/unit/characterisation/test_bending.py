@@ -131,22 +131,22 @@ def test_a_sub_model_that_folds_outside_its_gauge_is_refused_with_the_reason(ang
         model.curve(history)
 
 
-@pytest.mark.parametrize(("last", "ends"), [(1.0, True), (0.9, False)])
-def test_walls_that_yield_everywhere_without_folding_have_a_law_that_ends_earlier(last, ends):
-    """A third of the rotation between the planes: a law if the moment is kept, a fold elsewhere if not."""
+@pytest.mark.parametrize(("late", "found"), [(0.9, True), (0.0, False)])
+def test_walls_that_yield_everywhere_before_they_fold_have_a_law_that_ends_earlier(late, found):
+    """A sixth of the rotation is between the planes up to half of it, then nearly all, or nothing."""
     model = Bending(TUBE, STEEL)
     turned = np.linspace(0.0, model.turn, 200)
     moment = 900.0 * np.minimum(1.0, turned / 0.02)
-    moment[-20:] = np.linspace(900.0, last * 900.0, 20)
-    aside = 0.35 * np.maximum(turned - 0.02, 0.0) + 0.4 * np.minimum(turned, 0.02)
+    half = 0.5 * model.turn
+    between = np.minimum(turned, half) / 6.0 + late * 0.5 * np.maximum(turned - half, 0.0)
     history = {
-        "first": aside,
-        "second": aside,
+        "first": 0.5 * (turned - between),
+        "second": 0.5 * (turned - between),
         "node.turned.rotation.y": turned,
         "support.held.moment.y": moment,
         "support.turned.moment.y": -moment,
     }
-    if not ends:
+    if not found:
         with pytest.raises(InputError, match="folded elsewhere"):
             model.curve(history)
         return

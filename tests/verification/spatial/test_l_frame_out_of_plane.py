@@ -12,8 +12,8 @@ Without the shift of its set the corner opened by 4 degrees.)
 Round tubes, drawn and solved with shells after the law of their corners (10 and 12 mm elements, half of that
 in the folds): an L of 50x2 mm whose tip is thrown across its plane, and an arm of three pieces of 60x2.5 mm
 in space. Tolerance: the targets of the concordance, 10 % of displacements and 15 % of rotations or 2 degrees;
-6 mm of the small displacement p (found: 5.4). (With the law of the member about the bisector the corner of the
-L did not turn, its foot by 16 degrees; q of the L was 18 % too small, and p of the arm 17 mm too large.)
+6 mm of the small displacement p (found: 5.4). (With the law of the member about the bisector the corner of
+the L did not turn, its foot by 16 degrees; q of the L was 18 % too small, and p of the arm 17 mm too large.)
 
 Kind: independent calculation.  Source: run here.
 """
