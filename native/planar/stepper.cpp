@@ -110,10 +110,12 @@ void Stepper::keep_joined(const State& at, Real* w, size_t first) {
 
 void Stepper::filter(const State& at, Real* rates, Real* turns) {
     constexpr double pi = 3.14159265358979323846;
+    // rigid springs, for any frequency
+    constexpr double largest_scale = 1e12;
     std::fill(impedance_.begin(), impedance_.end(), 0.0);
     for (size_t j = 0; j < frozen_.size(); j++) {
         // elastic laws have the tangent h^2 K/4 for the end rates of a step
-        const double scale = 2 / (2 * pi * model_.resolved_frequency * frozen_[j].h);
+        const double scale = std::min(2 / (2 * pi * model_.resolved_frequency * frozen_[j].h), largest_scale);
         const auto dof = static_cast<size_t>(model_.hinges[j].dof);
         impedance_[dof] = scale * scale * law_response(model_.hinges[j], frozen_[j], at.w[dof]).slope;
     }
