@@ -22,7 +22,11 @@ F L/(G A_s) more (Timoshenko), within 0.5 %.
 Folds of a portal with 6 and 8 segments are those with 24 within 4 %, in at most three times the steps of
 rigid bars.
 
-Kind: closed form; invariant.  Source: textbook; derived here.
+An L of thick tubes thrown at its tip, whose folds turn by 1 degree: displacements of the shell model of the
+same input (10 mm elements, 5 mm in the folds), solved once by this program, within 12 % (found: 9 and 11 %;
+with dampers three times as strong, which take what ends in the folds, 16 and 13 %).
+
+Kind: closed form; invariant; independent calculation.  Source: textbook; derived here; run here.
 """
 
 import math
@@ -250,7 +254,7 @@ def test_folds_do_not_depend_on_the_number_of_segments(record_figure):
             record_figure(label, rotations(number)[name], finest, 0.04, "rad", relative=True)
     rigid = frame("rigid")
     assert results[6].provenance.settings["steps"] <= 3 * rigid.provenance.settings["steps"]
-    assert results[6].energy_residual < 1e-3
+    assert results[6].energy_residual < 1e-6
 
 
 CORNERS = """
@@ -306,3 +310,35 @@ def test_a_member_between_corners_twists_as_a_whole(order):
     ]
     section, steel = structure.section_of("bc"), structure.material_of("bc")
     assert twists == [pytest.approx(steel.shear_modulus * section.torsion_constant / 0.5)]
+
+
+THICK = """
+crumple: 1
+materials:
+  steel:
+    youngs_modulus: 210 GPa
+    poissons_ratio: 0.3
+    density: 7850 kg/m^3
+    yield_stress: 350 MPa
+    hardening: {type: voce, saturation: 120 MPa, strain: 0.08}
+sections: {tube: {type: rectangular_tube, width: 40 mm, depth: 60 mm, thickness: 3 mm}}
+nodes: {o: [0 m, 0 m, 0 m], p: [0.5 m, 0 m, 0 m], q: [0.8214 m, 0 m, 0.383 m]}
+members:
+  first: {nodes: [o, p], section: tube, material: steel}
+  second: {nodes: [p, q], section: tube, material: steel}
+hinges: auto
+supports: {clamp: {node: o, fix: all}}
+masses: {tip: {node: q, mass: 10 kg}}
+initial_velocity: [{translation: [-1.176 m/s, 2.115 m/s, 5.238 m/s], nodes: [q]}]
+analysis: {duration: 50 ms, multibody: {mechanism_check: off}}
+outputs: {every: 0.2 ms, nodes: [p, q]}
+"""
+
+
+def test_vibration_ends_in_the_folds_and_not_in_dampers(record_figure):
+    result = solve(loads(THICK))
+    assert result.status.ok, result.reason
+    for node, shells in (("p", 0.01974), ("q", 0.04955)):
+        moved = [result[f"node.{node}.displacement.{axis}"] for axis in "xyz"]
+        largest = float(np.linalg.norm(moved, axis=0).max())
+        record_figure(f"largest displacement {node}", largest, shells, 0.12, "m", relative=True)
