@@ -213,9 +213,7 @@ class Bending:
             If nothing folded between the planes; of a corner `StrongCornerError`.
         """
         plastic, moment, flexibility = self._plastic(result)
-        # thick walls that harden yield along the whole sub-model before they fold: their law ends earlier
-        late = self.angle is None and self._turning_share(result, plastic) > TURNING
-        if plastic.max() < 0.5 * self.largest and not late:
+        if plastic.max() < 0.5 * self.largest and not self._folds_late(result, plastic):
             came = f"{math.degrees(plastic.max()):.2g} deg between the planes of measurement"
             if self.angle is not None:
                 what = "the corner is as strong as its members: the sub-model folded beside it"
@@ -226,11 +224,15 @@ class Bending:
         curve = law_curve(plastic, moment, self.largest)
         return curve if flexibility == 0.0 else curve.with_stiffness(1.0 / flexibility)
 
-    def _turning_share(self, result: Result, plastic: Floats) -> float:
-        """Share of the end's rotation that is between the planes in the last tenth of the times [-]."""
+    def _folds_late(self, result: Result, plastic: Floats) -> bool:
+        """Whether a member's rotation of the last tenth of the times is between the planes.
+
+        Thick walls that harden yield along the whole sub-model before they fold: their law ends earlier.
+        """
         turned = self.sense * result[f"node.turned.rotation.{self.axis}"]
         since = -max(len(turned) // 10, 2)
-        return float((plastic[-1] - plastic[since]) / (turned[-1] - turned[since]))
+        between, whole = plastic[-1] - plastic[since], turned[-1] - turned[since]
+        return self.angle is None and bool(between > TURNING * whole)
 
     def histories(self, result: Histories) -> tuple[Floats, Floats]:
         """Plastic rotation of the fold [rad] and moment [N m] at the times of the result."""

@@ -154,3 +154,15 @@ def test_a_slow_spring_that_yields_turns_as_far_as_if_all_were_resolved(record_f
         found = record.hinge.plastic[-1, 0]
         record_figure(f"plastic rotation, vibration {name}", found, expected, LOOSE, "rad", relative=True)
         assert found == pytest.approx(expected, rel=LOOSE)
+
+
+@pytest.mark.parametrize("share", [0.1, 0.2, 0.5])
+def test_a_fast_spring_that_yields_takes_its_energy(share, record_figure):
+    """Its yield moment is a share of the largest elastic one. Which way it turns depends on its phase."""
+    given = float(modes()[1][1])
+    yields = (1e9, share * given * math.sqrt(STIFF[1]))
+    over, every = (
+        run_pair(frequency, yields).hinge_energy.dissipated[-1, 1] for frequency in (500.0, math.inf)
+    )
+    assert every > 0.7 * given**2 / 2
+    record_figure(f"energy of a spring that yields at {share:g}", over, every, 0.01, "J", relative=True)

@@ -196,6 +196,18 @@ def test_its_ring_distorts_as_a_square_tube_of_the_same_mid_line():
     )
 
 
+def test_its_torque_falls_about_the_tangent_alone():
+    side, law = math.pi * 0.024 / 2.0, across(5.0, "tangent")
+    falling = 130.0 * (0.002 / side) ** 2
+    assert falling in law.kinks()
+    twisted = law.moment_capacity([0.99 * falling, 2.0 * falling])
+    np.testing.assert_allclose(twisted, [law.torque, law.torque * 0.5**1.75], rtol=0.01)
+    kept = across(90.0).moment_capacity(2.0 * falling)
+    bending = float(build_law("library", TUBE, STEEL).moment_capacity(2.0 * falling))
+    parts = 0.5 / across().distortion ** 2 + 0.5 / across().torque ** 2 + 0.5 / bending**2
+    assert float(kept) == pytest.approx(parts**-0.5, rel=1e-3)
+
+
 def test_a_thick_tube_out_of_the_range_of_the_library_has_the_fold_of_the_formula():
     thick = CircularTube(0.050, 0.006)
     law = across(tube=thick)

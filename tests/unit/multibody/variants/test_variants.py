@@ -59,6 +59,11 @@ def test_a_parameter_is_a_change_of_the_input(tube, name, value, path):
     assert abs(table[QUANTITY][0] - alone(tube)[QUANTITY][0]) > 1e-3
 
 
+def test_rows_pass_over_the_vibration_that_runs_pass_over(tube):
+    run = Run(0.06, 0.01, MultibodySettings(resolved_frequency=321.0))
+    assert planar_case(tube, run).model.resolved_frequency == 321.0
+
+
 def test_a_table_for_pandas_has_all_columns(tube):
     pandas = pytest.importorskip("pandas")
     table = solve_variants(tube, RUN, {"masses.payload.mass": [7.5, 8.0]}, threads=1)
