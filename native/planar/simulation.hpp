@@ -82,6 +82,7 @@ private:
     bool step_twice(double h, bool again);
     double error(const State& coarse, const State& fine);
     double moved_apart(const State& coarse, const State& fine, double& speed);
+    double unbalance(const State& fine) const;
     void show_first_moments();
     void store(Record& record) const;
     void watch(Record& record);
