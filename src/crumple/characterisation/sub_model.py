@@ -64,8 +64,8 @@ class SubModel(Solvable, Protocol):
 
     Attributes
     ----------
-    section, material, sense
-        See `Bending`.
+    section, material, sense, largest
+        See `Bending`; of crushing the largest shortening over the length.
     load
         What it is loaded by.
     origin
@@ -84,6 +84,8 @@ class SubModel(Solvable, Protocol):
     def material(self) -> Material: ...
     @property
     def sense(self) -> int: ...
+    @property
+    def largest(self) -> float: ...
     @property
     def load(self) -> Load: ...
     @property

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 ROTATIONS = (0, 1, 2, 5, 10, 15, 20, 25, 30, 40, 50, 60)
 """Rotations of the table [deg]."""
+WHOLE = 0.97
+"""Share of the rotation asked for from which a law is whole."""
 LOADS = ("bending", "torsion", "crush", "out-of-plane")
 SMALLEST, LARGEST = 0.0872, 1.0473
 """Plastic rotation up to which a law can be requested: 5 to 60 degrees [rad], with room for rounding."""
@@ -342,6 +344,11 @@ def _show(model: SubModel, law: Any, path: Path) -> None:
         moment, energy = curve.moment_at(at * scale[1]), curve.energy_at(at * scale[1])
         table.add_row(f"{at:.4g}", f"{moment * scale[0]:.4g}", f"{energy:.4g}")
     console.print(table)
+    reach = law.validity.rotation_max
+    if not law.slip and reach < WHOLE * model.largest:
+        ends, asked = (f"{np.rad2deg(angle):.3g} deg" for angle in (reach, model.largest))
+        text = f"The law ends at {ends}, not at {asked}: the walls also turn beside the fold. Hinges hold"
+        console.print(f"{text} its last moment beyond, with a caution.", markup=False)
     for key, text in law.origin:
         console.print(f"{key}: {text}", style="dim", markup=False)
     error = law.validity.uncertainty

@@ -2,13 +2,18 @@
 
 import json
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from crumple.characterisation import solving
+from crumple.characterisation import Bending, LawCurve, solving
+from crumple.characterisation.law import law_of
+from crumple.cli.characterise import _show
 from crumple.cli.main import app
 from crumple.errors import InputError
 from crumple.hinge import read_law
+from crumple.material import Material
+from crumple.section import RectangularTube
 
 TUBE = ["characterise", "rectangular_tube 50x25x2.65 mm", "--material", "yield 488 MPa, E 210 GPa"]
 
@@ -39,7 +44,19 @@ def test_law_is_solved_once_and_kept(tmp_path, monkeypatch):
     again = invoke("--store", str(folder), "--to", "10 deg")
     assert again.exit_code == 0
     assert "Plastic rotation" in again.output
+    assert "The law ends" not in again.output
     assert file.name in again.output.replace("\n", "")
+
+
+@pytest.mark.parametrize(("turned", "said"), [(0.1745, False), (0.1, True)])
+def test_a_law_that_ends_before_what_was_asked_for_says_so(turned, said, tmp_path, capsys):
+    material = Material("metal", 210e9, 0.3, 7850.0, 488e6)
+    model = Bending(RectangularTube(0.05, 0.025, 0.00265), material, largest=0.1745)
+    rotation = np.linspace(0.0, turned, 5)
+    curve = LawCurve(rotation, np.full(5, 1000.0), 1000.0 * rotation)
+    _show(model, law_of(model, curve, None, {}, None), tmp_path / "law.yaml")
+    text = " ".join(capsys.readouterr().out.split())
+    assert ("The law ends at 5.73 deg, not at 10 deg" in text) is said
 
 
 @pytest.mark.parametrize(
