@@ -77,6 +77,7 @@ BENDING: Registry[LawType] = Registry(
         "file": "crumple.hinge.measured.file_law:FileLaw",
         "library": "crumple.hinge.tube_library.law:TubeLibraryLaw",
         "clamped_tube": "crumple.hinge.tube_library.clamped:ClampedTubeLaw",
+        "hardening_tube": "crumple.hinge.tube_library.hardening_tube:HardeningTubeLaw",
         "estimate": "crumple.hinge.bending.estimate:EstimatedLaw",
         "auto": "crumple.hinge.bending.estimate:AutoLaw",
     },
@@ -98,6 +99,8 @@ FOLD_BENDING: dict[Fold, dict[str, str]] = {
     "clamped": {"circular_tube": "clamped_tube"},
 }
 """Law that goes before the formula in such folds: docs/theory/tube_library.md."""
+HARDENING_BENDING = {"rectangular_tube": "hardening_tube", "circular_tube": "hardening_tube"}
+"""Law that goes before the formula if the metal has a hardening curve."""
 AXIAL: Registry[AxialLawType] = Registry(
     "axial law",
     {

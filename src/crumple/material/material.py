@@ -20,6 +20,8 @@ UNITS = {
     "failure_strain": "1",
 }
 """SI unit of each number of a material; texts with units are taken too."""
+FOLD_STRAIN = 0.1
+"""Plastic strain at which the hardening is measured: of the order of those in a fold."""
 
 
 @dataclass(frozen=True)
@@ -75,13 +77,16 @@ class Material:
 
     @property
     def flow_stress(self) -> float:
-        """Stress that folds work against [Pa]: the given flow stress, else the yield stress.
+        """Stress that folds work against [Pa]: given, else of the hardening curve, else the yield stress.
 
-        The yield stress is the choice of an elastic-perfectly plastic metal.  It is on the low side for one
-        that hardens: Kecman-type mechanisms take the nominal ultimate strength there, so give that
-        (or an energy-equivalent stress) as the flow stress where it is known.
+        Of a curve it is the stress at the plastic strain `FOLD_STRAIN`, the measure of hardening of the tube
+        library.  The yield stress alone is on the low side for a metal that hardens: Kecman-type mechanisms
+        take the nominal ultimate strength, so give that or an energy-equivalent stress where there is no
+        curve.
         """
-        return self.yield_stress if self.given_flow_stress is None else self.given_flow_stress
+        if self.given_flow_stress is not None:
+            return self.given_flow_stress
+        return self.yield_stress if self.hardening is None else float(self.hardening.stress(FOLD_STRAIN))
 
     @property
     def shear_modulus(self) -> float:

@@ -21,8 +21,9 @@ from crumple.structure.checks.obstacle_checks import stage_problems
 from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.hinges.asked import any_automatic
 from crumple.structure.hinges.elastic_members import with_elastic_members
-from crumple.structure.hinges.hinges import PlacedHinge, placed_hinges, plastic_hinges, shares_left_out
+from crumple.structure.hinges.hinges import placed_hinges, plastic_hinges, shares_left_out
 from crumple.structure.hinges.joint_reach import joint_reach
+from crumple.structure.hinges.joints.placed_hinge import PlacedHinge
 from crumple.structure.hinges.law_use import law_uses, used_texts, with_used_laws
 from crumple.structure.hinges.places import HingePlace, hinge_places, member_hinge_places
 from crumple.structure.hinges.struck_folds import DentedTube, dented_tubes

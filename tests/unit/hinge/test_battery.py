@@ -34,10 +34,12 @@ from crumple.hinge import (
 )
 from crumple.hinge.measured.law_file import stored_law, write_law
 from crumple.material import CowperSymonds, Material
+from crumple.material.hardening.swift import Swift
 from crumple.section import Channel, CircularTube, ClosedHat, Hat, RectangularTube
 
 ERROR = 1e-4
 STEEL = Material("steel", 210e9, 0.3, 7850.0, 355e6, flow_rate=CowperSymonds(6844.0, 3.91))
+HARDENING = dataclasses.replace(STEEL, name="hardening", hardening=Swift(355e6, 0.01, 0.15))
 FILE = write_law(
     stored_law(build_law("kecman", RectangularTube(0.05, 0.025, 0.00265), STEEL), {"method": "formula"})
 )
@@ -83,6 +85,7 @@ OPTIONS = {
             "scatter": 0.1,
         }
     ],
+    "hardening_tube": [{}, {}],
     "circular": [{"after_jamming": "stop", "rolling_weight": 0.0}, {"after_jamming": "second_fold"}],
     "folded_profile": [
         {},
@@ -98,7 +101,13 @@ ASYMMETRIC = {
 }
 
 
-ROUND = {("library", 1), ("clamped_tube", 0), ("mitred_corner", 2), ("mitred_corner", 3)}
+ROUND = {
+    ("library", 1),
+    ("hardening_tube", 1),
+    ("clamped_tube", 0),
+    ("mitred_corner", 2),
+    ("mitred_corner", 3),
+}
 """Round tubes of laws that take others too."""
 
 
@@ -141,6 +150,7 @@ SECTIONS = {
     ("library", 0): solved,
     ("library", 1): solved_round,
     ("clamped_tube", None): solved_round,
+    ("hardening_tube", 1): lambda s: CircularTube(s.width, s.thickness),
     ("circular", None): lambda s: CircularTube(s.width, s.thickness),
     ("mitred_corner", 2): lambda s: CircularTube(s.width, s.thickness),
     ("mitred_corner", 3): lambda s: CircularTube(s.width, s.thickness),
@@ -176,7 +186,7 @@ def law_of(case, section, axis="y"):
     if build is not None:
         section = build(section)
         axis = FACE.get(type(section), axis)
-    return build_law(name, section, STEEL, axis, **options)
+    return build_law(name, section, HARDENING if name == "hardening_tube" else STEEL, axis, **options)
 
 
 def every(cases):

@@ -23,7 +23,7 @@ from crumple.errors import InputError
 from crumple.hinge.bending.kecman import KecmanLaw
 from crumple.hinge.law import HingeLaw, SofteningVariable, Source, Trust, Validity
 from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor
-from crumple.hinge.registry import DEFAULT_BENDING, FOLD_BENDING, Fold, build_law
+from crumple.hinge.registry import DEFAULT_BENDING, FOLD_BENDING, HARDENING_BENDING, Fold, build_law
 from crumple.hinge.stop import Stop
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
@@ -149,7 +149,7 @@ def automatic_type(
     build
         Builds a law by its name.
     """
-    for laws in (FOLD_BENDING[fold] if fold else {}, DEFAULT_BENDING):
+    for laws in (FOLD_BENDING[fold] if fold else {}, HARDENING_BENDING, DEFAULT_BENDING):
         name = laws.get(section.kind)
         if name is None:
             continue

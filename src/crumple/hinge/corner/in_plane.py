@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from typing import ClassVar
 
@@ -14,6 +14,7 @@ from crumple.errors import InputError, Problem
 from crumple.hinge.law import HingeLaw, SofteningVariable, Validity
 from crumple.hinge.rate import HingeRate, rate_factor
 from crumple.hinge.stop import Stop
+from crumple.hinge.tube_library.hardening import HardeningEffect
 from crumple.numeric.arrays import Floats
 
 SMALLEST, LARGEST = math.radians(5.0) * (1.0 - 1e-9), math.radians(100.0) * (1.0 + 1e-9)
@@ -48,6 +49,8 @@ class InPlaneLaw:
         Sense that closes the corner.
     elastic_stiffness
         Of the corner's own walls [N m/rad].
+    effect
+        Of hardening on the straight member's fold.
     """
 
     name: ClassVar[str] = "mitred_corner"
@@ -62,6 +65,7 @@ class InPlaneLaw:
     closing: Closing
     elastic_stiffness: float | None
     validity: Validity
+    effect: HardeningEffect = field(default_factory=HardeningEffect, kw_only=True)
 
     @property
     def title(self) -> str:
@@ -80,8 +84,16 @@ class InPlaneLaw:
         return self.tube.rate
 
     @abstractmethod
+    def at_yield(self, rotation: ArrayLike, sense: int = 1) -> Floats:
+        """Capacity [N m] at a rotation [rad] of a metal that stays at its yield stress."""
+
+    @abstractmethod
+    def hardening(self, rotation: ArrayLike, sense: int = 1) -> Floats:
+        """Factor of hardening on the capacity at a rotation [rad] [-]."""
+
     def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
+        return self.at_yield(rotation, sense) * self.hardening(rotation, sense)
 
     def closes(self, sense: int) -> bool:
         """Whether a sense of the rotation closes the corner."""

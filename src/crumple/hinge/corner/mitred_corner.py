@@ -13,7 +13,9 @@ and, with the moment M_K(theta) of the straight member's Kecman-type mechanism,
     closing   M = (M_0^-p + ((1 - c s) M_F)^-p)^(-1/p)
     opening   M = min(o M_0, (1 + d s) M_K, M_p)
 
-where M_F is that of the mechanism before it is capped. The constants were fitted to corners solved by
+where M_F is that of the mechanism before it is capped. A metal with a hardening curve has these moments at
+its yield stress, times the effect c_h of hardening on the straight member (`HardeningEffect`): all of it in
+an opened corner, 1 + (1 - e s)(c_h - 1) in a closed one. The constants were fitted to corners solved by
 shells. Limits: alpha -> 0 or a thick wall (x -> 0) gives the straight member, rounded where its fold
 begins; for large x the flange carries k t/(b s) of its yield force. Elastic stiffness of the corner's
 own: K = r E t h^2.
@@ -33,6 +35,7 @@ from crumple.hinge.corner.in_plane import Closing, InPlaneLaw, rounded, slope_of
 from crumple.hinge.corner.round_corner import RoundCornerLaw
 from crumple.hinge.law import Source, Trust, Validity
 from crumple.hinge.options import choice
+from crumple.hinge.tube_library.hardening import HardeningEffect, at_yield
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.numeric.sign_change import sign_change
@@ -49,6 +52,8 @@ WEB, FLANGE = 0.56, 2.44
 """g and k of the moment at the start [-]."""
 CLOSING, OPENING, OPEN_RISE = 0.45, 0.75, 1.12
 """c, d and o of the moment of both senses [-]."""
+SOFT = 0.7
+"""e of the hardening of a closed corner [-]."""
 STIFFNESS = 0.34
 """r of the elastic stiffness [-]."""
 REACH = math.radians(40.0)
@@ -108,7 +113,7 @@ class MitredCornerLaw(InPlaneLaw):
         s, sense = slope_of(angle), choice("closing", closing, Closing)
         if isinstance(section, CircularTube):
             return RoundCornerLaw.of(section, material, angle=angle, closing=sense)
-        tube = KecmanLaw.of(section, material, axis, after_jamming="hold")
+        tube = KecmanLaw.of(section, at_yield(material), axis, after_jamming="hold")
         wall = section.thickness
         across, deep = section.flange_width(axis) - wall, section.bending_depth(axis) - wall
         webs = deep**2 / 2.0 * (1.0 - WEB * s**2) / (1.0 - s**2)
@@ -122,13 +127,15 @@ class MitredCornerLaw(InPlaneLaw):
             sense,
             STIFFNESS * material.youngs_modulus * wall * deep**2,
             Validity(REACH, "corners of other proportions were solved by shells that far", (), UNCERTAINTY),
+            effect=HardeningEffect.of(section, material, axis),
         )
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
         """Rotations where the slope jumps [rad]."""
         end = self.tube.jamming_angle
+        hardens = self.effect.rotation[1:]
         if self.closes(sense):
-            return (end,)
+            return tuple(sorted({end, *hardens}))
 
         def above(rotation: Floats) -> Floats:
             return self._opening_start - self._opening_share * self.tube.moment_capacity(rotation)
@@ -136,10 +143,15 @@ class MitredCornerLaw(InPlaneLaw):
         crossing = sign_change(above, 1e-4 * end, end * (1.0 - 1e-9))
         # the capped part of the straight member's curve has no kinks
         governed = {kink for kink in self.tube.kinks(sense) if float(above(np.asarray(kink))) >= 0.0}
-        return tuple(sorted(governed | (set() if crossing is None else {crossing})))
+        return tuple(sorted(governed | {*hardens} | (set() if crossing is None else {crossing})))
 
-    def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
-        """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
+    def hardening(self, rotation: ArrayLike, sense: int = 1) -> Floats:
+        """Factor of hardening on the capacity at a rotation [rad] [-]."""
+        share = 1.0 - SOFT * self.slope if self.closes(sense) else 1.0
+        return 1.0 + share * (self.effect.at(rotation) - 1.0)
+
+    def at_yield(self, rotation: ArrayLike, sense: int = 1) -> Floats:
+        """Capacity [N m] at a rotation [rad] of a metal that stays at its yield stress."""
         if not self.closes(sense):
             fold = self._opening_share * self.tube.moment_capacity(rotation, sense)
             return np.asarray(np.minimum(self._opening_start, fold), np.float64)

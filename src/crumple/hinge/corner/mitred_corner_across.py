@@ -44,6 +44,8 @@ from crumple.hinge.options import choice
 from crumple.hinge.rate import HingeRate, rate_factor
 from crumple.hinge.registry import build_law
 from crumple.hinge.stop import Stop
+from crumple.hinge.torsion.plastic import PlasticTorsion
+from crumple.hinge.tube_library.hardening import at_yield, hardens
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.registry.quantity import PositiveAngle
@@ -63,6 +65,8 @@ ROUND_FALL, ROUND_TURN = 1.75, 130.0
 """m and r of round tubes about the tangent; about the bisector their torque does not fall."""
 STIFFNESS, ROUND_STIFFNESS = 0.67, 0.51
 """q of the elastic stiffness of rectangular and of round tubes [-]."""
+HARDENING = 4.0
+"""Length of the piece that hardens as the corner does over the largest side of the section [-]."""
 EARLY, SETTLED = 1.30, 0.039
 """g [-] and theta_2 [rad]: how a round tube begins to distort."""
 REACH = math.radians(30.0)
@@ -96,6 +100,8 @@ class MitredCornerAcrossLaw:
         Law of the straight member in bending about its axis in the corner's plane.
     elastic_stiffness
         Of the corner's own walls [N m/rad]; None about the tangent, where they are stiff.
+    twisted
+        Torque of a piece of the member over its twist, which hardens as the corner does.
 
     References
     ----------
@@ -119,6 +125,7 @@ class MitredCornerAcrossLaw:
     tube: HingeLaw
     elastic_stiffness: float | None
     validity: Validity
+    twisted: PlasticTorsion
 
     @classmethod
     def of(
@@ -161,19 +168,20 @@ class MitredCornerAcrossLaw:
         direction = choice("about", about, About)
         bends = direction is About.BISECTOR
         s, wall, stress = math.sin(angle / 2.0), section.thickness, material.yield_stress
+        yielding = at_yield(material)
         if isinstance(section, CircularTube):
             radius = (section.diameter - wall) / 2.0
             enclosed, mean = math.pi * radius**2, math.pi * radius / 2.0
             falling, fall = ROUND_TURN * (wall / mean) ** 2, 0.0 if bends else ROUND_FALL
             early = min(1.0, EARLY * (wall / radius) ** (1.0 / 3.0))
-            tube = build_law(automatic_type(section, material, axis, "free"), section, material, axis)
+            tube = build_law(automatic_type(section, yielding, axis, "free"), section, yielding, axis)
             shape = ROUND_STIFFNESS * radius / (s**2 * math.sqrt(1.0 - s**2))
             warnings, band = slender_trust(section, ROUND_UNCERTAINTY)
         else:
             width, depth = section.width - wall, section.depth - wall
             enclosed, mean = width * depth, math.sqrt(width * depth)
             falling, fall, early = TURN * (wall / max(width, depth)) ** 2, FALL, 1.0
-            tube = KecmanLaw.of(section, material, axis, after_jamming="hold")
+            tube = KecmanLaw.of(section, yielding, axis, after_jamming="hold")
             shape = STIFFNESS * mean / math.tan(angle / 2.0) ** 2
             warnings, band = (), UNCERTAINTY
         return cls(
@@ -187,6 +195,7 @@ class MitredCornerAcrossLaw:
             tube,
             material.youngs_modulus * wall**2 * shape if bends else None,
             Validity(REACH, "corners of other proportions were solved by shells that far", warnings, band),
+            _twisted(section, material),
         )
 
     @property
@@ -203,7 +212,7 @@ class MitredCornerAcrossLaw:
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
         """Rotations where the slope jumps [rad]."""
-        return tuple(sorted({*self.tube.kinks(sense), self.falling}))
+        return tuple(sorted({*self.tube.kinks(sense), self.falling, *self.twisted.kinks(sense)}))
 
     def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
@@ -216,8 +225,15 @@ class MitredCornerAcrossLaw:
         else:
             distortion = self.distortion * (1.0 - (1.0 - self.early) * np.exp(-turned / SETTLED))
             uses = (s / distortion) ** 2 + (s / torque) ** 2 + (along / bending) ** 2
-        return np.asarray(uses**-0.5, np.float64)
+        hardened = self.twisted.moment_capacity(turned) / self.twisted.initial_torque
+        return np.asarray(uses**-0.5 * hardened, np.float64)
 
     def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
         """Factor on the capacity at a rotation rate [rad/s]."""
         return rate_factor(self.rate, rotation_rate)
+
+
+def _twisted(section: RectangularTube | CircularTube, material: Material) -> PlasticTorsion:
+    side = section.diameter if isinstance(section, CircularTube) else max(section.width, section.depth)
+    # a torque that is constant needs no walls
+    return PlasticTorsion.of(section, material, HARDENING * side, torque=None if hardens(material) else 1.0)

@@ -33,6 +33,7 @@ from numpy.typing import ArrayLike
 from crumple.hinge.bending.circular import CircularLaw
 from crumple.hinge.corner.in_plane import ROUNDING, Closing, InPlaneLaw, rounded, slope_of
 from crumple.hinge.law import Source, Trust, Validity
+from crumple.hinge.tube_library.hardening import HardeningEffect, at_yield
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import CircularTube
@@ -89,7 +90,7 @@ class RoundCornerLaw(InPlaneLaw):
         """Law of a corner; as `MitredCornerLaw.of`."""
         s = slope_of(angle)
         wall, radius = section.thickness, (section.diameter - section.thickness) / 2.0
-        tube = CircularLaw.of(section, material, after_jamming="hold")
+        tube = CircularLaw.of(section, at_yield(material), after_jamming="hold")
         resistance = 2.0 * RING * wall / (radius * math.sin(angle))
         thin = (
             material.yield_stress * section.plastic_section_modulus("y") * (6.0 * resistance) ** (2 / 3) / 2
@@ -107,14 +108,19 @@ class RoundCornerLaw(InPlaneLaw):
                 *slender_trust(section, UNCERTAINTY),
             ),
             1.0 - (1.0 - CLOSING) * min(1.0, angle / WHOLE),
+            effect=HardeningEffect.of(section, material),
         )
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
-        """Rotation where the slope jumps [rad]: where the fold jams."""
-        return (self.tube.jamming_angle,)
+        """Rotations where the slope jumps [rad]: where the fold jams, and those of the hardening."""
+        return tuple(sorted({self.tube.jamming_angle, *self.effect.rotation[1:]}))
 
-    def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
-        """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
+    def hardening(self, rotation: ArrayLike, sense: int = 1) -> Floats:
+        """Factor of hardening on the capacity at a rotation [rad] [-]."""
+        return self.effect.at(rotation)
+
+    def at_yield(self, rotation: ArrayLike, sense: int = 1) -> Floats:
+        """Capacity [N m] at a rotation [rad] of a metal that stays at its yield stress."""
         upto = np.minimum(np.asarray(rotation, np.float64), self.tube.jamming_angle)
         fold = self.tube.fold.mechanism.moment(upto)
         if self.closes(sense):

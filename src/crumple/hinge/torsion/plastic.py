@@ -1,15 +1,18 @@
-"""Constant plastic torque: the walls shear at yield and do not fold.
+"""Plastic torque: the walls shear at yield and do not fold.
 
-    T = T_p
+    T = T_p s(e)/s_y,    e = g/sqrt(3),    g = T_p phi/(l F)
 
-T_p is the largest torque of the section, see `crumple.section.properties.plastic_torsion`.  An upper bound of
-the peak: thin walls buckle in shear and fold.  Limits: one closed cell has Bredt's 2 A t s_y/sqrt(3).
+T_p is the largest torque of the section, see `crumple.section.properties.plastic_torsion`, s(e) the hardening
+curve of the metal, and g the shear strain of the walls that yield, whose shear forces add up to F = sum of t
+L s_y/sqrt(3): twist by phi over the length l works T_p phi = F l g.  A metal without a curve has T = T_p.  An
+upper bound of the peak: thin walls buckle in shear and fold.  Limits: one closed cell has Bredt's T_p = 2 A t
+s_y/sqrt(3), and of equal walls with the perimeter L g = 2 A phi/(l L).
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
@@ -24,6 +27,8 @@ from crumple.numeric.arrays import Floats
 from crumple.registry.quantity import PositiveMoment
 from crumple.section import Section
 
+STRAINS = (0.001, 0.002, 0.004, 0.007, 0.012, 0.02, 0.03, 0.045, 0.065, 0.09, 0.12, 0.16, 0.22, 0.3)
+"""Plastic strains between which the torque is straight [-]; a law ends at the last."""
 SOURCE = Source(
     "plastic torque of the section",
     Trust.DERIVED,
@@ -33,12 +38,14 @@ SOURCE = Source(
 
 @dataclass(frozen=True)
 class PlasticTorsion:
-    """Constant torque, the same in both senses.
+    """Torque at yield, the same in both senses.
 
     Attributes
     ----------
     initial_torque, steady_torque
-        Both the torque [N m].
+        At the start and the end [N m].
+    twist, torque
+        Plastic twists [rad] and torques there [N m] of a metal that hardens; empty: constant.
 
     References
     ----------
@@ -65,6 +72,8 @@ class PlasticTorsion:
     source: Source = SOURCE
     jamming_angle: float | None = None
     stop: Stop | None = None
+    twist: tuple[float, ...] = ()
+    torque: tuple[float, ...] = ()
 
     @classmethod
     def of(
@@ -75,11 +84,11 @@ class PlasticTorsion:
         Parameters
         ----------
         section, material
-            For the plastic torque and the elastic stiffness.
+            For the plastic torque, its hardening and the elastic stiffness.
         length
             Twisted length [m].
         torque
-            Constant torque [N m]; without it the plastic torque of the section.
+            Constant torque [N m]; without it the plastic torque of the section, and its hardening.
 
         Raises
         ------
@@ -89,25 +98,44 @@ class PlasticTorsion:
         for name, value in (("length", length), ("torque", 1.0 if torque is None else torque)):
             if not (math.isfinite(value) and value > 0.0):
                 raise InputError(Problem(f"the {name} must be positive", f"{value:g}", "> 0", "", name))
-        if torque is None:
-            from crumple.section import plastic_interaction  # noqa: PLC0415  (only this case needs walls)
-
-            torque = float(plastic_interaction(section, material).plastic_torque)
         stiffness = material.shear_modulus * section.torsion_constant / length
-        return cls(torque, torque, elastic_stiffness=stiffness)
+        if torque is not None:
+            return cls(torque, torque, elastic_stiffness=stiffness)
+        from crumple.section import plastic_interaction  # noqa: PLC0415  (only this case needs walls)
+
+        interaction = plastic_interaction(section, material)
+        plastic = float(interaction.plastic_torque)
+        if material.hardening is None:
+            return cls(plastic, plastic, elastic_stiffness=stiffness)
+        strain = np.array((0.0, *STRAINS))
+        twist = length * math.sqrt(3.0) * strain * interaction.yielding_shear_force / plastic
+        hardened = plastic * material.hardening.stress(strain) / material.yield_stress
+        return cls(
+            plastic,
+            float(hardened[-1]),
+            elastic_stiffness=stiffness,
+            validity=replace(cls.validity, basis=f"plastic torque of {1e3 * length:.4g} mm that harden"),
+            twist=tuple(twist.tolist()),
+            torque=tuple(hardened.tolist()),
+        )
 
     @property
     def title(self) -> str:
         """One line for people."""
+        if self.twist:
+            return f"torque {self.initial_torque:.4g} N m, hardening to {self.steady_torque:.4g} N m"
         return f"constant torque {self.steady_torque:.4g} N m"
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
-        """No kinks."""
-        return ()
+        """Twists where the slope jumps [rad]."""
+        return self.twist[1:]
 
     def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
-        """Torque [N m], the same at every twist."""
-        return np.full_like(np.asarray(rotation, np.float64), self.steady_torque)
+        """Torque [N m] at a twist [rad]."""
+        twist = np.asarray(rotation, np.float64)
+        if not self.twist:
+            return np.full_like(twist, self.steady_torque)
+        return np.asarray(np.interp(twist, self.twist, self.torque), np.float64)
 
     def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
         """Ones."""

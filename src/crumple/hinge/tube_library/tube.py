@@ -13,10 +13,9 @@ import math
 from crumple.errors import InputError, Problem
 from crumple.hinge.tube_library.table import Coordinate, TubeTable
 from crumple.material import Material
+from crumple.material.material import FOLD_STRAIN
 from crumple.section import Axis, CircularTube, RectangularTube, Section
 
-HARDENED = 0.1
-"""Plastic strain at which the hardening is measured: of the order of those in a fold."""
 RANGES = {
     "slenderness": "larger side over thickness",
     "ratio": "flange width over depth",
@@ -29,7 +28,7 @@ TODO = "use a formula, or solve this tube (crumple characterise)"
 def hardening_ratio(material: Material) -> float:
     """Stress at a plastic strain of 0.1 over the yield stress; the flow stress where there is no curve."""
     curve = material.hardening
-    stress = material.flow_stress if curve is None else float(curve.stress(HARDENED))
+    stress = material.flow_stress if curve is None else float(curve.stress(FOLD_STRAIN))
     return stress / material.yield_stress
 
 

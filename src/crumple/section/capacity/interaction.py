@@ -69,6 +69,11 @@ class PlasticInteraction:
         return self._torsion[0]
 
     @property
+    def yielding_shear_force(self) -> float:
+        """Sum of the shear forces of walls that yield in pure torsion [N]: t L sigma_y/sqrt(3) of each."""
+        return float((self.shear_use * self.yields) @ self.section.skeleton_areas) / math.sqrt(3.0)
+
+    @property
     def shear_use(self) -> Floats:
         """Part of its shear yield stress that each edge gives to the plastic torque, shape (m,)."""
         return self._torsion[1]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -13,24 +13,21 @@ from crumple import hinge
 from crumple.cancelling import go_on
 from crumple.errors import InputError, Problem
 from crumple.hinge import (
-    ConstantLaw,
-    Coupling,
     Form,
-    HingeComponent,
     HingeLaw,
     HingeRecord,
     SofteningVariable,
     SpatialHingeRecord,
     Stop,
 )
-from crumple.numeric.arrays import Floats
-from crumple.section import Axis, half_fold_length
+from crumple.section import Axis
 from crumple.structure.hinges.corner.press import with_corner_press
 from crumple.structure.hinges.corner.shift import with_corner_shift
 from crumple.structure.hinges.corner.slip import with_corner_slip
 from crumple.structure.hinges.corner.springs import with_corner_springs
 from crumple.structure.hinges.corner_laws import corner_of, turned_corner
-from crumple.structure.hinges.elastic_members import yielding_record
+from crumple.structure.hinges.joints.elastic_joints import elastic_joints
+from crumple.structure.hinges.joints.placed_hinge import PlacedHinge, direction_of
 from crumple.structure.hinges.places import (
     MADE,
     HingePlace,
@@ -43,12 +40,10 @@ from crumple.structure.hinges.shares import (
     AxisShares,
     HingeShares,
     about_axis,
-    joint_lengths,
     member_shares,
     moment_free_ends,
-    untwisted,
 )
-from crumple.structure.hinges.spatial_hinges import BENDING, spatial_hinge_record, twist_component
+from crumple.structure.hinges.spatial_hinges import spatial_hinge_record
 from crumple.structure.hinges.stored_loads import laws_of_loads, twist_law
 from crumple.structure.keys.law import LawKeys, Stops
 from crumple.structure.parts import StructureParts
@@ -56,64 +51,13 @@ from crumple.structure.remembered import remembered
 
 ANY = HingeShares({"y": 1.0, "z": 1.0})
 """Shares for results that do not depend on the length of a member."""
-NEARER = np.sqrt(0.5) * (1.0 - 1e-9)
-"""Cosine of 45 degrees, with room for rounding: of two axes across a member the nearer one is within it."""
 AXIS_ROW: dict[Axis, int] = {"y": 1, "z": 2}
 """Row of an axis among the axes of a hinge."""
 STIFF = 0.1
 """Length of member over the side of its section that bends as a corner that states no flexibility."""
-FIRM = 100.0
-"""Capacity of an elastic joint over the largest capacity of its member's hinges: no impact reaches it, and
-tolerances relative to the largest capacity stay small."""
-SAME_PLACE = 1e-2 / 6.0
-"""Distance of joints about two axes that are one, over the length of their member: a hundredth of a segment
-of the six of an elastic member. Its bending about the second axis is wrong by about such a share."""
 
 OWN_HINGES = ("placed hinges", "")
 """Where a structure keeps what `placed_hinges` found."""
-
-
-@dataclass(frozen=True, eq=False)
-class PlacedHinge:
-    """One hinge with its law, for the solvers.
-
-    Attributes
-    ----------
-    name, member, station, axis
-        As in `HingePlace`.
-    position
-        Where it lies at the start, global [m], shape (3,).
-    direction
-        Unit vector of its axis at the start, global, shape (3,); rotation is right-handed about it,
-        second side relative to first.
-    tributary_length
-        Length of member [m] whose elastic bending about its axis it represents; 0 if other hinges do.
-    law
-        Formula with source and range.
-    record
-        The law as a record for the solver.
-    spatial
-        Of a hinge with several components, or one that breaks: all of them as the spatial stepper takes them;
-        `axis`, `law` and `record` are then those of its first bending axis.  None for all others.
-    axes
-        Its x, y and z at the start as rows, (3, 3), of a hinge that has the axes of a corner; None: those of
-        its member.
-    plastic
-        False of an elastic joint: a point of a member that bends elastically alone.
-    """
-
-    name: str
-    member: str
-    station: float
-    axis: Axis
-    position: Floats
-    direction: Floats
-    tributary_length: float
-    law: HingeLaw
-    record: HingeRecord
-    spatial: SpatialHingeRecord | None = None
-    axes: Floats | None = None
-    plastic: bool = True
 
 
 def placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
@@ -148,7 +92,7 @@ def _placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
                 problems += [replace(p, where=p.where or f"members.{member}") for p in error.problems]
         placed += own
         joints = elastic_joints(structure, member, own, about) if own or spec.elastic else []
-        placed += _twisting(structure, member, joints) if spec.elastic else joints
+        placed += joints
     if problems:
         raise InputError(problems)
     return tuple(placed)
@@ -177,78 +121,6 @@ def _shares(
     return structure.kept.once(
         "shares", member, lambda: member_shares(structure, member, places, free(member))
     )
-
-
-def elastic_joints(
-    structure: StructureParts, member: str, own: list[PlacedHinge], about: dict[Axis, AxisShares]
-) -> list[PlacedHinge]:
-    """Joints of a member besides its hinges: points at which it bends elastically.
-
-    Those of an elastic member yield as its section does; the others have no plastic law.
-    """
-    lengths = joint_lengths(about, SAME_PLACE * structure.frame_of(member).length)
-    found = []
-    for i, (station, by_axis) in enumerate(lengths, 1):
-        # no name of the input has a blank
-        name = f"{member} elastic" if len(lengths) == 1 else f"{member} elastic {i}"
-        records = {
-            axis: _joint_record(structure, member, axis, (station, length), own)
-            for axis, length in sorted(by_axis.items())
-        }
-        first = min(records)
-        place = HingePlace(name, member, station, first, None, f"members.{member}")
-        components = [HingeComponent(BENDING[axis], record) for axis, record in records.items()]
-        coupling = Coupling.ELLIPSOID if structure.members[member].elastic else Coupling.NONE
-        found.append(
-            PlacedHinge(
-                name=name,
-                member=member,
-                station=station,
-                axis=first,
-                position=structure.frame_of(member).position(station),
-                direction=_direction(structure, place),
-                tributary_length=by_axis[first],
-                law=ConstantLaw(float(records[first].positive.moment.max())),
-                record=records[first],
-                spatial=hinge.spatial_record(components, coupling=coupling) if len(records) > 1 else None,
-                plastic=False,
-            )
-        )
-    return found
-
-
-def _twisting(structure: StructureParts, member: str, joints: list[PlacedHinge]) -> list[PlacedHinge]:
-    """Joints of an elastic member; the one nearest its middle twists if none of its hinges does."""
-    length = untwisted(structure, member) if joints else 0.0
-    if length == 0.0:
-        return joints
-    half = 0.5 * structure.frame_of(member).length
-    middle = min(joints, key=lambda joint: abs(joint.station - half))
-    bending = [HingeComponent(BENDING[middle.axis], middle.record)]
-    metal = structure.section_of(member), structure.material_of(member)
-    twist = twist_component(middle.record, metal, length)
-    components = [*(middle.spatial.components if middle.spatial else bending), twist]
-    spatial = hinge.spatial_record(components, coupling=Coupling.ELLIPSOID)
-    return [replace(joint, spatial=spatial) if joint is middle else joint for joint in joints]
-
-
-def _joint_record(
-    structure: StructureParts, member: str, axis: Axis, place: tuple[float, float], own: list[PlacedHinge]
-) -> HingeRecord:
-    """Record of a joint at a station that stands for a length [m] of its member.
-
-    One between an end and the fold there does not yield: the hinge stands for the fold of all that lies
-    beyond it. Walls that yielded there without folding would carry its largest moment whatever the rotation.
-    """
-    station, length = place
-    if structure.members[member].elastic and not _beyond_a_fold(structure, member, axis, station, own):
-        return yielding_record(structure, member, axis, length)
-    strongest = max(
-        float(curve.moment.max()) for h in own for curve in (h.record.positive, h.record.negative)
-    )
-    stiffness = structure.flexural_rigidity(member, axis) / length
-    law = ConstantLaw(FIRM * strongest)
-    return hinge.record_of(law, form=Form.ELASTIC_PLASTIC, elastic_stiffness=stiffness)
 
 
 def _bending(
@@ -335,43 +207,13 @@ def _placed(structure: StructureParts, place: HingePlace, shares: HingeShares) -
         station=place.station,
         axis=place.axis,
         position=frame.position(place.station),
-        direction=_direction(structure, place) if axes is None else axes[AXIS_ROW[place.axis]],
+        direction=direction_of(structure, place) if axes is None else axes[AXIS_ROW[place.axis]],
         tributary_length=shares.bending.get(place.axis, 0.0),
         law=law,
         record=record,
         spatial=spatial_record_of(structure, place, shares),
         axes=axes,
     )
-
-
-def _direction(structure: StructureParts, place: HingePlace) -> Floats:
-    """Axis of a hinge at the start; a round section has none of its own and takes the plane of bending's."""
-    axis = structure.frame_of(place.member).axis(place.axis)
-    round_tube = structure.section_of(place.member).kind == "circular_tube"
-    normal = structure.normal_of(place.member) if round_tube else None
-    across = np.zeros(3) if normal is None else np.array(normal)
-    along = float(across @ axis)
-    # the given axis determines which of the two it is, and its sense
-    if abs(along) <= NEARER:
-        return axis
-    return across if along > 0.0 else -across
-
-
-def _beyond_a_fold(
-    structure: StructureParts, member: str, axis: Axis, station: float, own: list[PlacedHinge]
-) -> bool:
-    """Whether a station lies between an end of a member and a hinge that is less than one fold away."""
-    folds = [hinge.station for hinge in own if _bends_about(hinge, axis)]
-    if not folds or min(folds) <= station <= max(folds):
-        return False
-    nearest = min(folds) if station < min(folds) else max(folds)
-    return abs(station - nearest) <= 2.0 * half_fold_length(structure.section_of(member), axis)
-
-
-def _bends_about(hinge: PlacedHinge, axis: Axis) -> bool:
-    if hinge.spatial is None:
-        return hinge.axis == axis
-    return any(component.freedom is BENDING[axis] for component in hinge.spatial.components)
 
 
 @remembered(MADE)

@@ -9,7 +9,7 @@ from typing import Literal, get_args
 
 from crumple.errors import InputError
 from crumple.hinge.measured.library import is_of_joint
-from crumple.section import Axis
+from crumple.section import Axis, half_fold_length
 from crumple.structure.hinges.corner.across import ACROSS
 from crumple.structure.hinges.corner_laws import MITRED, turned_corner
 from crumple.structure.hinges.corners import corners
@@ -21,6 +21,9 @@ from crumple.structure.parts import StructureParts
 Spring = Literal["none", "given", "auto"]
 """Whether a hinge bends elastically about an axis, and whether by a stiffness of its own or the member's."""
 AXES: tuple[Axis, ...] = get_args(Axis)
+SAME_PLACE = 1e-2 / 6.0
+"""Distance of joints about two axes that are one, over the length of their member: a hundredth of a segment
+of the six of an elastic member. Its bending about the second axis is wrong by about such a share."""
 
 
 @dataclass(frozen=True)
@@ -34,14 +37,17 @@ class HingeShares:
     axial, twist
         In elastic lengthening, and in elastic twist.
     stretch
-        Of the laws of axial folding and of twist: the part of the member that folds.  Of a hinge that
-        shortens the whole member, else what is nearer to it than to the others.
+        Of the law of axial folding: the part of the member that folds.  Of a hinge that shortens the whole
+        member, else what is nearer to it than to the others.
+    twisted
+        Of the law of twist: one fold where joints twist besides, else as `stretch`.
     """
 
     bending: Mapping[Axis, float] = field(default_factory=dict)
     axial: float = 1.0
     twist: float = 1.0
     stretch: float = 1.0
+    twisted: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -101,9 +107,17 @@ def member_shares(
     twist = along(
         lambda place: _twists(structure, place) or (rigid_member and "x" in (place.keys.axes or ()))
     )
+    between = joint_twists(structure, name, [at for at, _ in joint_lengths(found, SAME_PLACE * length)])
+    if twist and between:
+        twist = _beside(twist, places, between, (length, rigid))
     nearest = along(lambda place: True) if len(places) != 1 else {places[0].name: length}
     # folds along the axis begin at the weakest hinge and go on next to each other through the whole member
     nearest |= dict.fromkeys(axial, sum(axial.values()))
+    twisted = nearest
+    if between:
+        section = structure.section_of(name)
+        fold = 2.0 * max(half_fold_length(section, axis) for axis in AXES)
+        twisted = {hinge: min(stretch, fold) for hinge, stretch in nearest.items()}
     return [
         HingeShares(
             {
@@ -114,9 +128,23 @@ def member_shares(
             axial.get(place.name, 1.0),
             twist.get(place.name, 1.0),
             nearest[place.name],
+            twisted[place.name],
         )
         for place in places
     ], found
+
+
+def _beside(
+    own: dict[str, float],
+    places: Sequence[HingePlace],
+    joints: Mapping[float, float],
+    bar: tuple[float, tuple[tuple[float, float], ...]],
+) -> dict[str, float]:
+    """Lengths of the hinges that twist beside joints that do."""
+    stations = [place.station for place in places if place.name in own]
+    points = sorted([*stations, *joints])
+    lengths = dict(zip(points, tributary_lengths(points, *bar), strict=True))
+    return {name: lengths[at] for name, at in zip(own, stations, strict=True)}
 
 
 def _twists(structure: StructureParts, place: HingePlace) -> bool:
@@ -125,17 +153,35 @@ def _twists(structure: StructureParts, place: HingePlace) -> bool:
     return "x" in axes and turned_corner(structure, place.name, axes) is None
 
 
-def untwisted(structure: StructureParts, member: str) -> float:
-    """Length of a member that twists in no hinge [m], because its ends are corners; 0 of all others."""
-    spec, known = structure.members[member], corners(structure)
-    ends = [known[node] for node in spec.nodes if node in known]
-    hosts = [place for end in ends for place in member_hinge_places(structure, end.first)]
-    if not any("x" in (place.keys.axes or ()) and not _twists(structure, place) for place in hosts):
-        return 0.0
-    if any(_twists(structure, place) for place in member_hinge_places(structure, member)):
-        return 0.0
+def joint_twists(structure: StructureParts, member: str, stations: Sequence[float]) -> dict[float, float]:
+    """Length of a member [m] that each of its joints stands for in twist, by station.
+
+    An elastic member whose hinges twist, or would but for corners at its ends, twists at every joint if its
+    metal hardens, since its walls then yield over a length.  Else it twists at its hinges, or, if none of
+    these does, at the joint nearest its middle.
+    """
+    spec = structure.members[member]
+    if not stations or not spec.elastic:
+        return {}
+    own = [place.station for place in member_hinge_places(structure, member) if _twists(structure, place)]
+    if not own and not _between_corners(structure, member):
+        return {}
     length = structure.frame_of(member).length
-    return length - sum(b - a for a, b in spec.rigid_parts(length))
+    rigid = spec.rigid_parts(length)
+    if structure.material_of(member).hardening is not None:
+        points = sorted([*own, *stations])
+        lengths = dict(zip(points, tributary_lengths(points, length, rigid), strict=True))
+        return {at: lengths[at] for at in stations}
+    middle = min(stations, key=lambda at: abs(at - 0.5 * length))
+    return {} if own else {middle: length - sum(b - a for a, b in rigid)}
+
+
+def _between_corners(structure: StructureParts, member: str) -> bool:
+    """Whether an end of a member is a corner whose hinge twists about its tangent."""
+    known = corners(structure)
+    ends = [known[node] for node in structure.members[member].nodes if node in known]
+    hosts = [place for end in ends for place in member_hinge_places(structure, end.first)]
+    return any("x" in (place.keys.axes or ()) and not _twists(structure, place) for place in hosts)
 
 
 def joint_lengths(about: dict[Axis, AxisShares], near: float) -> list[tuple[float, dict[Axis, float]]]:

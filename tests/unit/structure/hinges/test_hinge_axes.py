@@ -9,7 +9,7 @@ from crumple.errors import InputError
 from crumple.hinge import Coupling, Form, Freedom
 from crumple.section import plastic_interaction
 from crumple.structure import Structure, placed_hinges
-from crumple.structure.hinges.hinges import elastic_joints
+from crumple.structure.hinges.joints.elastic_joints import elastic_joints
 from crumple.structure.hinges.shares import AxisShares
 
 PARTS = {
@@ -194,3 +194,109 @@ def test_elastic_joints_about_two_axes_that_are_near_are_one_joint(apart, number
     joints = elastic_joints(whole, "bar", [fold], about)
     assert len(joints) == number
     assert {joint.axis for joint in joints} == ({"y"} if number == 1 else {"y", "z"})
+
+
+CURVE = {"type": "voce", "saturation": "150 MPa", "strain": 0.05}
+
+
+def twisting(curve, elastic):
+    """Hinges and joints with twist of the first member of a frame in space, and of one between corners."""
+    steel = PARTS["materials"]["steel"] | ({"hardening": curve} if curve else {})
+    nodes = {"root": [0, 0, 0], "knee": ["600 mm", 0, 0], "top": ["600 mm", 0, "500 mm"]}
+    nodes["tip"] = ["600 mm", "400 mm", "500 mm"]
+    metal = {"section": "round", "material": "steel", "elastic": elastic, "hinges": "auto"}
+    ends = {"first": ["root", "knee"], "between": ["knee", "top"], "last": ["top", "tip"]}
+    members = {name: {"nodes": nodes, **metal} for name, nodes in ends.items()}
+    thrown = [{"translation": ["1 m/s", 0, "-6 m/s"], "nodes": ["tip"]}]
+    own = {"materials": {"steel": steel}, "nodes": nodes, "initial_velocity": thrown, "masses": {}}
+    hinges = placed_hinges(Structure(**PARTS | own, members=members))
+
+    def of(member):
+        return [
+            (hinge.plastic, component.record)
+            for hinge in hinges
+            for component in (hinge.spatial.components if hinge.spatial else ())
+            # the hinge of a corner twists about its tangent
+            if hinge.member == member and component.freedom is Freedom.X and hinge.axes is None
+        ]
+
+    return of("first"), of("between")
+
+
+def hardened(record):
+    """Share by which a torque rises within 0.15 degrees of twist."""
+    curve = record.positive
+    return np.interp(math.radians(0.15), curve.rotation, curve.moment) / curve.moment[0] - 1.0
+
+
+def twisted_length(records):
+    shear = 210e9 / 2.6 * built("round").section_of("bar").torsion_constant
+    return sum(shear / record.elastic_stiffness for _, record in records)
+
+
+def test_members_whose_metal_hardens_twist_at_every_joint():
+    first, between = twisting(CURVE, 6)
+    assert [plastic for plastic, _ in first].count(True) == 1
+    assert len(first) >= 5
+    assert len(between) >= 5
+    # together they are as flexible as the member
+    assert twisted_length(first) == pytest.approx(0.6)
+    assert twisted_length(between) == pytest.approx(0.5)
+    # what stands for less of the member hardens with less twist, and vibrates as much damped as in bending
+    fold = next(record for plastic, record in first if plastic)
+    joint = next(record for plastic, record in first[2:] if not plastic)
+    assert fold.positive.moment[0] == pytest.approx(joint.positive.moment[0])
+    assert hardened(fold) > 1.5 * hardened(joint) > 0.0
+    assert joint.positive.moment[-1] > 1.3 * joint.positive.moment[0]
+    assert joint.viscous_damping == pytest.approx(1e-5 * joint.elastic_stiffness)
+
+
+def test_members_whose_metal_does_not_harden_twist_at_their_hinges_else_in_their_middle():
+    first, between = twisting(None, 6)
+    assert [plastic for plastic, _ in first] == [True]
+    assert [plastic for plastic, _ in between] == [False]
+    assert twisted_length(first) == pytest.approx(0.6)
+    assert twisted_length(between) == pytest.approx(0.5)
+    assert np.ptp(between[0][1].positive.moment) == 0.0
+    assert hardened(first[0][1]) <= 0.0
+
+
+def test_rigid_members_twist_at_their_hinges_over_the_part_that_each_stands_for():
+    first, between = twisting(CURVE, False)
+    assert [plastic for plastic, _ in first] == [True]
+    assert between == []
+    elastic = next(record for plastic, record in twisting(CURVE, 6)[0] if plastic)
+    assert hardened(elastic) > 3.0 * hardened(first[0][1]) > 0.0
+
+
+def share_of(curve, work):
+    """Moment of a curve over its largest so far, after a work at its first moment."""
+    moment = np.interp(work / curve.moment[0], curve.rotation, curve.moment)
+    return moment / np.maximum.accumulate(moment)
+
+
+@pytest.mark.parametrize(("section", "power"), [("tube", 0.65), ("round", 0.5)])
+def test_the_torque_falls_as_the_fold_flattens_the_section(section, power):
+    record = placed(section, axes=["x", "y", "z"]).spatial
+    twist, about_y, about_z = (component.record for component in record.components)
+    plastic = plastic_interaction(*metal_of(section)).plastic_torque
+    assert twist.positive.moment[0] == pytest.approx(plastic)
+    np.testing.assert_array_equal(twist.positive.moment, twist.negative.moment)
+    assert np.all(np.diff(twist.positive.moment) <= 0.0)
+    # up to 20 degrees about y, before anything folds a second time
+    work = np.linspace(0.0, math.radians(20.0) * about_y.positive.moment[0], 30)
+    left = np.mean([share_of(about.positive, work) for about in (about_y, about_z)], axis=0)
+    found = np.interp(work / plastic, twist.positive.rotation, twist.positive.moment)
+    np.testing.assert_allclose(found, plastic * left**power, rtol=2e-4)
+    assert found[-1] < 0.95 * plastic
+
+
+def metal_of(section):
+    whole = built(section)
+    return whole.section_of("bar"), whole.material_of("bar")
+
+
+@pytest.mark.parametrize("keys", [{"coupling": "none"}, {"twist": {"law": "plastic"}}])
+def test_a_torque_that_is_named_or_apart_does_not_fall(keys):
+    twist = placed(axes=["x", "y", "z"], **keys).spatial.components[0].record
+    assert np.ptp(twist.positive.moment) == 0.0

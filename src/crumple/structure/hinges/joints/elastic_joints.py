@@ -1,0 +1,109 @@
+"""Joints of a member besides its hinges: points at which it bends, twists and yields."""
+
+from __future__ import annotations
+
+from crumple import hinge
+from crumple.hinge import ConstantLaw, Coupling, Form, HingeComponent, HingeRecord
+from crumple.section import Axis, half_fold_length
+from crumple.structure.hinges.elastic_members import yielding_record
+from crumple.structure.hinges.joints.placed_hinge import PlacedHinge, direction_of
+from crumple.structure.hinges.places import HingePlace
+from crumple.structure.hinges.shares import SAME_PLACE, AxisShares, joint_lengths, joint_twists
+from crumple.structure.hinges.spatial_hinges import BENDING, twist_component
+from crumple.structure.parts import StructureParts
+
+FIRM = 100.0
+"""Capacity of an elastic joint over the largest capacity of its member's hinges: no impact reaches it, and
+tolerances relative to the largest capacity stay small."""
+
+
+def elastic_joints(
+    structure: StructureParts, member: str, own: list[PlacedHinge], about: dict[Axis, AxisShares]
+) -> list[PlacedHinge]:
+    """Joints of a member besides its hinges: points at which it bends and twists elastically.
+
+    Those of an elastic member yield as its section does; the others have no plastic law.
+    """
+    lengths = joint_lengths(about, SAME_PLACE * structure.frame_of(member).length)
+    twisted = joint_twists(structure, member, [station for station, _ in lengths])
+    found = []
+    for i, (station, by_axis) in enumerate(lengths, 1):
+        # no name of the input has a blank
+        name = f"{member} elastic" if len(lengths) == 1 else f"{member} elastic {i}"
+        records = {
+            axis: _joint_record(structure, member, axis, (station, length), own)
+            for axis, length in sorted(by_axis.items())
+        }
+        first = min(records)
+        place = HingePlace(name, member, station, first, None, f"members.{member}")
+        components = [HingeComponent(BENDING[axis], record) for axis, record in records.items()]
+        if station in twisted:
+            components.append(_twist(structure, member, (station, twisted[station]), records, own))
+        coupling = Coupling.ELLIPSOID if structure.members[member].elastic else Coupling.NONE
+        found.append(
+            PlacedHinge(
+                name=name,
+                member=member,
+                station=station,
+                axis=first,
+                position=structure.frame_of(member).position(station),
+                direction=direction_of(structure, place),
+                tributary_length=by_axis[first],
+                law=ConstantLaw(float(records[first].positive.moment.max())),
+                record=records[first],
+                spatial=hinge.spatial_record(components, coupling=coupling) if len(components) > 1 else None,
+                plastic=False,
+            )
+        )
+    return found
+
+
+def _twist(
+    structure: StructureParts,
+    member: str,
+    place: tuple[float, float],
+    bending: dict[Axis, HingeRecord],
+    own: list[PlacedHinge],
+) -> HingeComponent:
+    """Twist of a joint at a station that stands for a length [m] of its member: it yields as it bends."""
+    station, length = place
+    metal = structure.section_of(member), structure.material_of(member)
+    firm = any(_beyond_a_fold(structure, member, axis, station, own) for axis in bending)
+    first = next(iter(bending.values()))
+    return twist_component(first, metal, length, firm=FIRM if firm else 1.0)
+
+
+def _joint_record(
+    structure: StructureParts, member: str, axis: Axis, place: tuple[float, float], own: list[PlacedHinge]
+) -> HingeRecord:
+    """Record of a joint at a station that stands for a length [m] of its member.
+
+    One between an end and the fold there does not yield: the hinge stands for the fold of all that lies
+    beyond it. Walls that yielded there without folding would carry its largest moment whatever the rotation.
+    """
+    station, length = place
+    if structure.members[member].elastic and not _beyond_a_fold(structure, member, axis, station, own):
+        return yielding_record(structure, member, axis, length)
+    strongest = max(
+        float(curve.moment.max()) for h in own for curve in (h.record.positive, h.record.negative)
+    )
+    stiffness = structure.flexural_rigidity(member, axis) / length
+    law = ConstantLaw(FIRM * strongest)
+    return hinge.record_of(law, form=Form.ELASTIC_PLASTIC, elastic_stiffness=stiffness)
+
+
+def _beyond_a_fold(
+    structure: StructureParts, member: str, axis: Axis, station: float, own: list[PlacedHinge]
+) -> bool:
+    """Whether a station lies between an end of a member and a hinge that is less than one fold away."""
+    folds = [hinge.station for hinge in own if _bends_about(hinge, axis)]
+    if not folds or min(folds) <= station <= max(folds):
+        return False
+    nearest = min(folds) if station < min(folds) else max(folds)
+    return abs(station - nearest) <= 2.0 * half_fold_length(structure.section_of(member), axis)
+
+
+def _bends_about(hinge: PlacedHinge, axis: Axis) -> bool:
+    if hinge.spatial is None:
+        return hinge.axis == axis
+    return any(component.freedom is BENDING[axis] for component in hinge.spatial.components)

@@ -1,0 +1,75 @@
+"""One hinge of a structure with its law, at its place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from crumple.hinge import HingeLaw, HingeRecord, SpatialHingeRecord
+from crumple.numeric.arrays import Floats
+from crumple.section import Axis
+from crumple.structure.hinges.places import HingePlace
+from crumple.structure.parts import StructureParts
+
+NEARER = np.sqrt(0.5) * (1.0 - 1e-9)
+"""Cosine of 45 degrees, with room for rounding: of two axes across a member the nearer one is within it."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedHinge:
+    """One hinge with its law, for the solvers.
+
+    Attributes
+    ----------
+    name, member, station, axis
+        As in `HingePlace`.
+    position
+        Where it lies at the start, global [m], shape (3,).
+    direction
+        Unit vector of its axis at the start, global, shape (3,); rotation is right-handed about it,
+        second side relative to first.
+    tributary_length
+        Length of member [m] whose elastic bending about its axis it represents; 0 if other hinges do.
+    law
+        Formula with source and range.
+    record
+        The law as a record for the solver.
+    spatial
+        Of a hinge with several components, or one that breaks: all of them as the spatial stepper takes them;
+        `axis`, `law` and `record` are then those of its first bending axis.  None for all others.
+    axes
+        Its x, y and z at the start as rows, (3, 3), of a hinge that has the axes of a corner; None: those of
+        its member.
+    plastic
+        False of an elastic joint: a point of a member that bends elastically alone.
+    """
+
+    name: str
+    member: str
+    station: float
+    axis: Axis
+    position: Floats
+    direction: Floats
+    tributary_length: float
+    law: HingeLaw
+    record: HingeRecord
+    spatial: SpatialHingeRecord | None = None
+    axes: Floats | None = None
+    plastic: bool = True
+
+
+def direction_of(structure: StructureParts, place: HingePlace) -> Floats:
+    """Axis of a hinge at the start, a unit vector.
+
+    A round section has none of its own and takes the normal of the plane of bending.
+    """
+    axis = structure.frame_of(place.member).axis(place.axis)
+    round_tube = structure.section_of(place.member).kind == "circular_tube"
+    normal = structure.normal_of(place.member) if round_tube else None
+    across = np.zeros(3) if normal is None else np.array(normal)
+    along = float(across @ axis)
+    # the given axis determines which of the two it is, and its sense
+    if abs(along) <= NEARER:
+        return axis
+    return across if along > 0.0 else -across
