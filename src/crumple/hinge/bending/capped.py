@@ -25,6 +25,11 @@ class Mechanism(Protocol):
         """Rotation at which its walls touch [rad]."""
         ...
 
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        """Rotations where the slope of its moment jumps [rad]."""
+        ...
+
     def energy(self, rotation: ArrayLike) -> NDArray[Any]:
         """Plastic work from flat walls [J] at a rotation [rad]."""
         ...
@@ -64,7 +69,8 @@ class CappedMechanism:
     @property
     def kinks(self) -> tuple[float, ...]:
         """Kinks within the fold [rad]."""
-        return (self.folding_from,) if self.folding_from < self.jamming_angle else ()
+        own = (self.folding_from, *self.mechanism.kinks)
+        return tuple(sorted(kink for kink in own if self.folding_from <= kink < self.jamming_angle))
 
     def moment(self, rotation: ArrayLike) -> Floats:
         """Capacity [N m] up to jamming."""

@@ -65,6 +65,11 @@ class FoldMechanism:
         """Half the length of the folded zone, h = min(a, b)/2 [m]."""
         return min(self.width, self.depth) / 2.0
 
+    @property
+    def kinks(self) -> tuple[float, ...]:
+        """None: its lines turn smoothly."""
+        return ()
+
     @cached_property
     def jamming_angle(self) -> float:
         """Rotation at which the flange halves touch, 2 asin((h - t/2)/b) [rad]."""

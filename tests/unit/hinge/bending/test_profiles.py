@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from crumple.hinge import build_law
+from crumple.hinge import absorbed_energy, build_law
 from crumple.material import Material
 from crumple.section import Channel, ClosedHat, Hat
 
@@ -77,3 +77,16 @@ def test_the_factor_of_free_edges_is_not_too_high():
     found = [differences(profile(kind, sizes), sizes[4], work) for kind, sizes, work in EDGES]
     assert np.all(np.mean(found, axis=0) < 0.02)
     assert np.all(np.mean(found, axis=0) > -0.09)
+
+
+def test_the_kink_where_the_neutral_axis_of_a_compressed_plate_reaches_the_crown_is_known():
+    steel = Material("steel", 210e9, 0.3, 7850.0, 355e6)
+    law = build_law("folded_profile", ClosedHat(0.125, 0.125, 0.00195, 0.0375), steel, "y")
+    (kink,) = (at for at in law.kinks(1) if 0.1 < at < 0.99 * law.jamming_angle)
+    beside = [float(law.moment_capacity(kink + offset)) for offset in (-2e-4, 0.0, 2e-4)]
+    before, after = np.diff(beside)
+    assert abs(before / after - 1.0) > 0.2
+    # without it the energy is not the integral of the moment
+    at, step = 1.4 * kink, 1e-5
+    slope = (absorbed_energy(law, at + step) - absorbed_energy(law, at - step)) / (2.0 * step)
+    assert slope == pytest.approx(float(law.moment_capacity(at)), rel=1e-5)

@@ -29,11 +29,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
+from crumple.numeric.sign_change import sign_change
 from crumple.section.capacity.buckling import plate_stress, width_factor
 from crumple.section.shapes.closed_hat import ClosedHat
 
 POWER, SHEETS, WEBS = 8.0 / 3.0, 68.0, 920.0
 """p, S of plate and flanges, and S of the webs [-]."""
+EARLY = 0.01
+"""Share of the jamming angle before which no kink is looked for: thin sheets fold steeply there anyway."""
 _HALVINGS = 50
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 _PLACES, _PARTS = 0.5 * (1.0 + _POINTS), 0.5 * _WEIGHTS
@@ -116,11 +119,7 @@ class CompressedPlate:
     def moment(self, rotation: ArrayLike) -> Floats:
         """Moment [N m]."""
         rotation = np.asarray(rotation, np.float64)
-        sheets = np.zeros_like(rotation)
-        lever = np.zeros_like(rotation)
-        for sheet in self.sheets:
-            force = sheet.force * _left(sheet.bowed + (rotation * sheet.slender / SHEETS) ** POWER)
-            sheets, lever = sheets + force, lever + force * sheet.height
+        sheets, lever = self._sheets(rotation)
         height = self._neutral(rotation, sheets)
         webs, webs_lever = self._webs_below(rotation, height)
         above = self.web * (self.depth - height)
@@ -131,9 +130,33 @@ class CompressedPlate:
         return np.asarray(total * (upper / stretched - (lever + webs_lever) / pressed))
 
     @cached_property
+    def kinks(self) -> tuple[float, ...]:
+        """Rotations at which the neutral axis leaves the flanges, and at which it reaches the crown [rad]."""
+
+        def left(rotation: Floats) -> Floats:
+            return self.crown + self.web * self.depth - self._sheets(rotation)[0]
+
+        def reached(rotation: Floats) -> Floats:
+            webs = self._webs_below(rotation, np.full_like(rotation, self.depth))[0]
+            return self.crown - self._sheets(rotation)[0] - webs
+
+        low = EARLY * self.jamming_angle
+        found = (sign_change(each, low, self.jamming_angle) for each in (left, reached))
+        # what holds there already has its place at the low end
+        return tuple(at for at in found if at is not None and at > low)
+
+    @cached_property
     def peak(self) -> float:
         """Largest moment, that of flat walls [N m]."""
         return float(self.moment(0.0))
+
+    def _sheets(self, rotation: Floats) -> tuple[Floats, Floats]:
+        """Force that the compressed sheets carry [N], and its moment about the flanges [N m]."""
+        total, lever = np.zeros_like(rotation), np.zeros_like(rotation)
+        for sheet in self.sheets:
+            force = sheet.force * _left(sheet.bowed + (rotation * sheet.slender / SHEETS) ** POWER)
+            total, lever = total + force, lever + force * sheet.height
+        return total, lever
 
     def _neutral(self, rotation: Floats, sheets: Floats) -> Floats:
         """Height of no stress over the flanges [m], at which no axial force is left."""

@@ -72,6 +72,11 @@ class FreeEdgeMechanism:
         return self.depth * math.sqrt(2.0 / 3.0)
 
     @property
+    def kinks(self) -> tuple[float, ...]:
+        """None: its lines turn smoothly."""
+        return ()
+
+    @property
     def jamming_angle(self) -> float:
         """Rotation at which the halves of the edge touch, x_P = t/2 [rad]."""
         b, h = self.depth, self.half_length
