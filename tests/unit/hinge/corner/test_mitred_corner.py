@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from crumple.analysis import loads
 from crumple.errors import InputError
-from crumple.hinge import Trust, build_law
+from crumple.hinge import Trust, build_law, build_torsion_law
+from crumple.hinge.tube_library.hardening import HardeningEffect
+from crumple.hinge.tube_library.table import tube_table
 from crumple.material import Material
-from crumple.section import Channel, RectangularTube
+from crumple.material.hardening.voce import Voce
+from crumple.section import Channel, CircularTube, RectangularTube
 from crumple.structure import plastic_hinges
 
 STEEL = Material("steel", 210e9, 0.3, 7850.0, 350e6)
@@ -207,3 +211,35 @@ def test_a_hinge_that_does_not_twist_keeps_the_axes_of_its_member():
     text = frame().replace("hinges: auto", "hinges: {axes: [y, z]}")
     structure = loads(text.replace("[0 m/s, 0 m/s, -5 m/s]", "[0 m/s, 5 m/s, 0 m/s]")).structure
     assert next(h for h in plastic_hinges(structure) if h.name == "corner-corner").axes is None
+
+
+HARDENING = replace(STEEL, hardening=Voce(STEEL.yield_stress, 150e6, 0.05))
+TURNS = np.append(tube_table("rectangular_tube").rotation[:16], 0.5)
+
+
+@pytest.mark.parametrize("section", [RectangularTube(0.05, 0.05, 0.003), CircularTube(0.05, 0.002)])
+@pytest.mark.parametrize("sense", [1, -1])
+def test_corners_in_their_plane_harden_as_the_straight_member_but_for_closed_rectangular_ones(section, sense):
+    angle = math.radians(60.0)
+    hard, plain = (build_law("mitred_corner", section, one, "y", angle=angle) for one in (HARDENING, STEEL))
+    effect = HardeningEffect.of(section, HARDENING).at(TURNS)
+    assert effect.max() > 1.2
+    share = 1.0 - 0.7 * math.sin(angle / 2.0) if sense > 0 and section.kind == "rectangular_tube" else 1.0
+    np.testing.assert_allclose(
+        hard.moment_capacity(TURNS, sense),
+        plain.moment_capacity(TURNS, sense) * (1.0 + share * (effect - 1.0)),
+        rtol=1e-12,
+    )
+
+
+@pytest.mark.parametrize("section", [RectangularTube(0.05, 0.03, 0.003), CircularTube(0.05, 0.002)])
+@pytest.mark.parametrize("about", ["bisector", "tangent"])
+def test_corners_out_of_their_plane_harden_as_four_sides_that_are_twisted(section, about):
+    hard, plain = (
+        build_law("mitred_corner_across", section, one, "z", angle=1.2, about=about)
+        for one in (HARDENING, STEEL)
+    )
+    torsion = build_torsion_law("plastic", section, HARDENING, 4.0 * 0.05)
+    share = torsion.moment_capacity(TURNS) / torsion.initial_torque
+    assert share[-1] > 1.15
+    np.testing.assert_allclose(hard.moment_capacity(TURNS), plain.moment_capacity(TURNS) * share, rtol=1e-12)

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from crumple.errors import InputError
-from crumple.hinge import Coupling, Form, Freedom
+from crumple.hinge import Coupling, Form, Freedom, build_law
 from crumple.section import plastic_interaction
 from crumple.structure import Structure, placed_hinges
+from crumple.structure.hinges.elastic_members import yielding_record
 from crumple.structure.hinges.joints.elastic_joints import elastic_joints
 from crumple.structure.hinges.shares import AxisShares
 
@@ -300,3 +301,21 @@ def metal_of(section):
 def test_a_torque_that_is_named_or_apart_does_not_fall(keys):
     twist = placed(axes=["x", "y", "z"], **keys).spatial.components[0].record
     assert np.ptp(twist.positive.moment) == 0.0
+
+
+def test_joints_of_a_metal_that_hardens_keep_the_largest_moment_of_its_fold():
+    member = {"nodes": ["root", "tip"], "section": "square", "elastic": 6, "hinges": "auto"}
+    metals = {
+        "steel": PARTS["materials"]["steel"],
+        "hard": PARTS["materials"]["steel"] | {"hardening": CURVE},
+    }
+    most = {}
+    for metal in metals:
+        whole = Structure(**PARTS | {"materials": metals}, members={"bar": member | {"material": metal}})
+        section, material = whole.section_of("bar"), whole.material_of("bar")
+        law = build_law("hardening_tube" if metal == "hard" else "kecman", section, material)
+        record = yielding_record(whole, "bar", "y", 0.1)
+        most[metal] = float(record.positive.moment.max())
+        peak = law.moment_capacity(np.radians(np.arange(0.0, 41.0))).max()
+        assert most[metal] == pytest.approx(peak, rel=1e-4)
+    assert most["hard"] > 1.1 * most["steel"]
