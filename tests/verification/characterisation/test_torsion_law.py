@@ -83,6 +83,6 @@ def test_frame_out_of_its_plane_is_nearer_to_shells_with_the_law(tmp_path, recor
         crumple.solve(source.analysis)["energy.external_work"][-1]
         for source in (plain, plain.with_laws(tmp_path / "laws"))
     ]
-    # with a constant torque, less what shear takes of it
-    assert works[0] > 1.25 * SHELL_WORK
+    # with a torque that falls as the folds bend, less what shear takes of it
+    assert works[0] > 1.2 * SHELL_WORK
     record_figure("work", works[1], SHELL_WORK, 0.16, "J", relative=True)
