@@ -29,8 +29,8 @@ from crumple.section import Axis, CircularTube, RectangularTube, Section
 
 SOURCE = Source(
     "formula of the tube at yield, times the effect of hardening in the library of shell sub-models",
-    Trust.ESTIMATED,
-    "the product is ours, compared with shells of clamped tubes; a law from shells replaces it",
+    Trust.FITTED,
+    "the product is ours; a law from shells (crumple characterise) replaces it",
 )
 
 
@@ -88,7 +88,9 @@ class HardeningTubeLaw:
             raise InputError(Problem(what, material.name, "a hardening curve that rises", todo, "hardening"))
         formula = build_law(DEFAULT_BENDING[section.kind], section, at_yield(material), axis)
         law = cls(formula, HardeningEffect.of(section, material, axis), formula.validity)
-        basis = f"{formula.validity.basis}; hardening as in the library"
+        basis = (
+            "a formula that hardens as the tubes of the library; ten clamped tubes were compared with shells"
+        )
         own = replace(formula.validity, uncertainty=None, basis=basis)
         return replace(law, validity=with_library_band(replace(law, validity=own), section, material, axis))
 

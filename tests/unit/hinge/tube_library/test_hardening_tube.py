@@ -115,3 +115,9 @@ def test_the_flow_stress_of_a_curve_is_its_stress_at_a_tenth():
     assert voce.flow_stress == pytest.approx(350e6 + 100e6 * (1.0 - np.exp(-2.0)))
     assert replace(voce, given_flow_stress=400e6).flow_stress == 400e6
     assert YIELD.flow_stress == 350e6
+
+
+def test_its_range_names_the_band_of_the_library_once():
+    law = build_law("hardening_tube", TUBE, STEEL)
+    assert law.validity.basis.count("against the library of tubes") == 1
+    assert "not checked" not in law.source.trust.value
