@@ -85,6 +85,21 @@ def test_the_hinge_under_the_pole_and_what_contact_takes_are_dissipated_there(on
     assert measures.impulse["pole"] == pytest.approx(20.0 * speed, rel=0.02)
 
 
+def test_a_joint_that_yields_does_so_over_the_length_up_to_half_way_to_its_neighbours(one):
+    structure, result = one
+    # hinges at 20, 500 and 980 mm: half way to them are 60 and 300 mm
+    yielding = replace(result, yielded={"bar": ((0.1, 8.0),)})
+    places, work = np.array([entry[1:] for entry in hinge_work(yielding, structure)[3:]]).T
+    assert work.sum() == pytest.approx(8.0)
+    assert places.mean() == pytest.approx(0.18)
+    assert 0.06 < places.min() < 0.08
+    assert 0.28 < places.max() < 0.3
+    # the zone of the node, two sides of 50 mm, has a sixth of it, to one piece
+    added = measure(yielding, structure).zones["a"] - measure(result, structure).zones["a"]
+    assert added == pytest.approx(8.0 / 6.0, abs=8.0 / 16.0)
+    assert added < 8.0
+
+
 def test_an_obstacle_that_does_not_press_has_no_figure_and_takes_no_share(one):
     _, result = one
     structure = beam(floor={"type": "plane", "point": (0.0, 0.0, -0.5), "normal": (0.0, 0.0, 1.0)})
