@@ -17,8 +17,9 @@ from crumple.hinge.law import HingeLaw
 from crumple.hinge.record.record import Envelope
 from crumple.numeric.arrays import Floats
 
-DENSE = np.linspace(0.0, 1.0, 65)
-"""Points per smooth piece on which the error is measured, beside the middle of every chord."""
+DENSE = np.linspace(0.0, 1.0, 65) ** 3
+"""Points per smooth piece on which the error is measured, beside the middle of every chord: closest at its
+start, where folds begin and moments fall fastest."""
 SPARE = 1.1
 """Factor on the estimated number of chords, so that the first try is mostly sufficient."""
 MOST_PIECES = 4096
@@ -113,10 +114,10 @@ def _refuse_without_capacity(law: HingeLaw, rotation: Floats, capacity: Floats) 
 
 def _spread(exact: Floats, error: float) -> Floats:
     """Number of chords from the start of each piece, (pieces, points); determines sampling points only."""
-    bend = np.abs(exact[:, 2:] - 2.0 * exact[:, 1:-1] + exact[:, :-2]) / exact[:, 1:-1]
-    # chords over one interval; at the ends of a piece as beside them
-    chords = (
-        np.sqrt(np.concatenate([bend[:, :1], bend, bend[:, -1:]], axis=1) / (8.0 * error)) + 1e-3 / DENSE.size
-    )
-    middle = (chords[:, 1:] + chords[:, :-1]) / 2.0
-    return np.concatenate([np.zeros((len(exact), 1)), np.cumsum(middle, axis=1)], axis=1)
+    step = np.diff(DENSE)
+    slope = np.diff(exact, axis=1) / step
+    bend = 2.0 * np.abs(np.diff(slope, axis=1)) / (step[1:] + step[:-1]) / exact[:, 1:-1]
+    # chords per length; at the ends of a piece as beside them
+    chords = np.sqrt(np.concatenate([bend[:, :1], bend, bend[:, -1:]], axis=1) / (8.0 * error)) + 1e-3
+    within = (chords[:, 1:] + chords[:, :-1]) / 2.0 * step
+    return np.concatenate([np.zeros((len(exact), 1)), np.cumsum(within, axis=1)], axis=1)

@@ -65,6 +65,25 @@ def test_straight_laws_have_the_points_that_sampling_finds(law, sense):
     assert not found.moment.flags.writeable
 
 
+def test_a_moment_that_falls_early_needs_few_points():
+    """Constant up to 0.04 deg and then as 1/rotation: no more chords than its curvature asks for."""
+
+    class Early(ConstantLaw):
+        def kinks(self, sense=1):
+            return (7e-4,)
+
+        def moment_capacity(self, rotation, sense=1):
+            turned = np.maximum(np.asarray(rotation, float), 1e-300)
+            return self.moment * np.minimum(1.0, 7e-4 / turned)
+
+    law = Early(1000.0)
+    found = sampled_envelope(law, error=1e-4)
+    # chords of equal relative error: log(pi/7e-4)/sqrt(4 error)
+    assert found.rotation.size < 1.5 * math.log(math.pi / 7e-4) / math.sqrt(4e-4)
+    at = np.geomspace(1e-4, 3.0, 1000)
+    np.testing.assert_allclose(np.interp(at, found.rotation, found.moment), law.moment_capacity(at), rtol=1e-4)
+
+
 def test_points_grow_with_the_root_of_the_accuracy():
     law = KecmanLaw.of(TUBE, STEEL, after_jamming="hold")
     coarse, fine = (record_of(law, error=error).positive.rotation.size for error in (1e-3, 1e-5))
