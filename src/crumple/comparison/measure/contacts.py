@@ -210,7 +210,7 @@ def hinge_work(result: Result, structure: Structure) -> list[tuple[str, float, f
 def _spread(
     result: Result, structure: Structure, hinges: list[tuple[str, float, float]]
 ) -> Iterator[tuple[str, float, float]]:
-    """Energy of the joints of elastic members, in `PIECES` of the length up to half way to their neighbours."""
+    """Energy of the joints of elastic members, in pieces of the length up to half way to their neighbours."""
     for member, joints in result.yielded.items():
         own = {station for name, station, _ in hinges if name == member} | {station for station, _ in joints}
         points = np.array(sorted(own))

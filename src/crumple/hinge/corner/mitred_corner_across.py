@@ -11,15 +11,19 @@ makes the work smallest gives a torque of 2 sigma_y (a t)^(3/2), with the mean a
 shells say k in place of 2:
 
     bisector   1/M^2 = (s/D)^2 + (s/T)^2 + (c/B)^2,    D = k sigma_y (a t)^(3/2)
-    tangent    1/M^2 = (c/T)^2 + (s/B)^2
-    T = T_p min(1, theta_1/theta)^m,  T_p = 2 b h t sigma_y/sqrt(3),  theta_1 = r (t/max(b, h))^2
+               T = T_p min(1, theta_1/theta)^m,  T_p = 2 b h t sigma_y/sqrt(3),  theta_1 = r (t/max(b, h))^2
+    tangent    1/M_0^2 = (c/T_p)^2 + (s/B_0)^2
+               M = M_0 (f + (1 - f) min(1, theta_c/theta)),    theta_c = q_t (t/a)^2 (1 + w (s_f/sigma_y - 1))
 
-B is the straight tube's moment (Kecman). Elastic stiffness of the corner's own about the bisector: K = q E
-t^2 a cot^2(alpha/2). Limits: alpha -> 0 gives the member in bending and in torsion; thin walls give s M = D.
+B is the straight tube's moment (Kecman), B_0 that at the start. About the tangent walls fold from the
+rotation theta_c on, as if the work of a fold were spent; metals that harden, with the flow stress s_f, spread
+the twist over a longer piece and fold later. Elastic stiffness of the corner's own about the bisector:
+K = q E t^2 a cot^2(alpha/2). Limits: alpha -> 0 gives the member in bending and in torsion; thin walls give
+s M = D about the bisector.
 
 Round tubes of the mean radius R distort like a square tube of the same mid-line, a = pi R/2 (quarters of the
-ring in place of walls), with the same k. Their torque T_p = 2 pi R^2 t sigma_y/sqrt(3) falls about the
-tangent alone, with other m and r, theta_1 = r (t/a)^2, B is the law of their free fold, and
+ring in place of walls), with the same k and w. Their torque is T_p = 2 pi R^2 t sigma_y/sqrt(3), constant
+about the bisector, f = 0, B is the law of their free fold, and
 
     D = k sigma_y (a t)^(3/2) (1 - (1 - g (t/R)^(1/3)) exp(-theta/theta_2)),    K = q E t^2 R/(s^2 c)
 """
@@ -54,19 +58,23 @@ from crumple.section import Axis, CircularTube, RectangularTube, Section
 SOURCE = Source(
     "corner out of its plane: torsion and bending of its members, distortion of the section at the mitre",
     Trust.FITTED,
-    "derived here, with four constants fitted to corners solved by shells; a law from shells "
+    "derived here, with constants fitted to corners solved by shells; a law from shells "
     "(crumple characterise --load out-of-plane) replaces it",
 )
 DISTORTION = 1.75
 """k of the torque that distorts the section at the mitre [-]."""
 FALL, TURN = 0.5, 47.0
-"""m [-] and r [rad] of the fall of the torque of rectangular tubes."""
-ROUND_FALL, ROUND_TURN = 1.75, 130.0
-"""m and r of round tubes about the tangent; about the bisector their torque does not fall."""
+"""m [-] and r [rad] of the fall of the torque of rectangular tubes about the bisector."""
+FOLDS, ROUND_FOLDS = 62.0, 85.0
+"""q_t of the rotation from which walls fold about the tangent, of rectangular and of round tubes [rad]."""
+REST = 0.12
+"""f, share of the moment about the tangent that folded walls of rectangular tubes keep [-]."""
+LATER = 1.5
+"""w, how much later walls that harden fold [-]."""
 STIFFNESS, ROUND_STIFFNESS = 0.67, 0.51
 """q of the elastic stiffness of rectangular and of round tubes [-]."""
 HARDENING = 4.0
-"""Length of the piece that hardens as the corner does over the largest side of the section [-]."""
+"""Length of the piece that hardens as a corner about its tangent over the largest side of the section [-]."""
 EARLY, SETTLED = 1.30, 0.039
 """g [-] and theta_2 [rad]: how a round tube begins to distort."""
 REACH = math.radians(30.0)
@@ -93,7 +101,11 @@ class MitredCornerAcrossLaw:
     slope
         s, sine of half the angle between the members [-].
     torque, falling, fall
-        Plastic torque of the members [N m], the rotation from which it falls [rad], and m of its fall [-].
+        Plastic torque of the members [N m]; about the bisector the rotation from which it falls [rad],
+        and m of its fall [-].
+    folding, rest
+        About the tangent the rotation from which walls fold [rad], and the share of the moment that
+        stays [-].
     distortion, early
         D, torque that distorts the section at the mitre [N m], and the share of it at the start [-].
     tube
@@ -120,6 +132,8 @@ class MitredCornerAcrossLaw:
     torque: float
     falling: float
     fall: float
+    folding: float
+    rest: float
     distortion: float
     early: float
     tube: HingeLaw
@@ -172,7 +186,7 @@ class MitredCornerAcrossLaw:
         if isinstance(section, CircularTube):
             radius = (section.diameter - wall) / 2.0
             enclosed, mean = math.pi * radius**2, math.pi * radius / 2.0
-            falling, fall = ROUND_TURN * (wall / mean) ** 2, 0.0 if bends else ROUND_FALL
+            falling, fall, folds, rest = math.inf, 0.0, ROUND_FOLDS, 0.0
             early = min(1.0, EARLY * (wall / radius) ** (1.0 / 3.0))
             tube = build_law(automatic_type(section, yielding, axis, "free"), section, yielding, axis)
             shape = ROUND_STIFFNESS * radius / (s**2 * math.sqrt(1.0 - s**2))
@@ -181,6 +195,7 @@ class MitredCornerAcrossLaw:
             width, depth = section.width - wall, section.depth - wall
             enclosed, mean = width * depth, math.sqrt(width * depth)
             falling, fall, early = TURN * (wall / max(width, depth)) ** 2, FALL, 1.0
+            folds, rest = FOLDS, REST
             tube = KecmanLaw.of(section, yielding, axis, after_jamming="hold")
             shape = STIFFNESS * mean / math.tan(angle / 2.0) ** 2
             warnings, band = (), UNCERTAINTY
@@ -190,12 +205,14 @@ class MitredCornerAcrossLaw:
             2.0 * enclosed * wall * stress / math.sqrt(3.0),
             falling,
             fall,
+            folds * (wall / mean) ** 2 * _later(material),
+            rest,
             DISTORTION * stress * (mean * wall) ** 1.5,
             early,
             tube,
             material.youngs_modulus * wall**2 * shape if bends else None,
             Validity(REACH, "corners of other proportions were solved by shells that far", warnings, band),
-            _twisted(section, material),
+            _twisted(section, material, mean * math.sqrt(mean / wall) if bends else None),
         )
 
     @property
@@ -212,20 +229,24 @@ class MitredCornerAcrossLaw:
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
         """Rotations where the slope jumps [rad]."""
-        return tuple(sorted({*self.tube.kinks(sense), self.falling, *self.twisted.kinks(sense)}))
+        own = (self.folding,)
+        if self.about is About.BISECTOR:
+            own = (*self.tube.kinks(sense), *((self.falling,) if self.fall else ()))
+        return tuple(sorted({*own, *self.twisted.kinks(sense)}))
 
     def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
         turned, s = np.asarray(rotation, float), self.slope
         along = math.sqrt(1.0 - s**2)
+        hardened = self.twisted.moment_capacity(turned) / self.twisted.initial_torque
+        if self.about is About.TANGENT:
+            whole = ((along / self.torque) ** 2 + (s / float(self.tube.moment_capacity(0.0))) ** 2) ** -0.5
+            left = np.minimum(1.0, self.folding / np.maximum(turned, 1e-300))
+            return np.asarray(whole * (self.rest + (1.0 - self.rest) * left) * hardened, np.float64)
         torque = self.torque * np.minimum(1.0, self.falling / np.maximum(turned, 1e-300)) ** self.fall
         bending = self.tube.moment_capacity(turned, 1)
-        if self.about is About.TANGENT:
-            uses = (along / torque) ** 2 + (s / bending) ** 2
-        else:
-            distortion = self.distortion * (1.0 - (1.0 - self.early) * np.exp(-turned / SETTLED))
-            uses = (s / distortion) ** 2 + (s / torque) ** 2 + (along / bending) ** 2
-        hardened = self.twisted.moment_capacity(turned) / self.twisted.initial_torque
+        distortion = self.distortion * (1.0 - (1.0 - self.early) * np.exp(-turned / SETTLED))
+        uses = (s / distortion) ** 2 + (s / torque) ** 2 + (along / bending) ** 2
         return np.asarray(uses**-0.5 * hardened, np.float64)
 
     def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
@@ -233,7 +254,17 @@ class MitredCornerAcrossLaw:
         return rate_factor(self.rate, rotation_rate)
 
 
-def _twisted(section: RectangularTube | CircularTube, material: Material) -> PlasticTorsion:
+def _later(material: Material) -> float:
+    """How much later walls fold because they harden [-]."""
+    flow = material.flow_stress if hardens(material) else material.yield_stress
+    return 1.0 + LATER * (flow / material.yield_stress - 1.0)
+
+
+def _twisted(
+    section: RectangularTube | CircularTube, material: Material, length: float | None
+) -> PlasticTorsion:
+    """Piece of the member that is twisted as the corner hardens; None: of `HARDENING` sides."""
     side = section.diameter if isinstance(section, CircularTube) else max(section.width, section.depth)
     # a torque that is constant needs no walls
-    return PlasticTorsion.of(section, material, HARDENING * side, torque=None if hardens(material) else 1.0)
+    torque = None if hardens(material) else 1.0
+    return PlasticTorsion.of(section, material, length or HARDENING * side, torque=torque)

@@ -174,7 +174,7 @@ def test_nearly_in_line_it_bends_about_its_bisector_and_twists_about_its_tangent
     at = np.radians([0.0, 5.0, 20.0])
     np.testing.assert_allclose(across(5.0).moment_capacity(at), straight.moment_capacity(at), rtol=0.05)
     torque = 2.0 * math.pi * 0.024**2 * 0.002 * 350e6 / math.sqrt(3.0)
-    np.testing.assert_allclose(across(5.0, "tangent").moment_capacity(at), torque, rtol=0.01)
+    np.testing.assert_allclose(across(5.0, "tangent").moment_capacity(at[:2]), torque, rtol=0.01)
 
 
 def test_its_ring_distorts_as_a_square_tube_of_the_same_mid_line():
@@ -196,14 +196,15 @@ def test_its_ring_distorts_as_a_square_tube_of_the_same_mid_line():
     )
 
 
-def test_its_torque_falls_about_the_tangent_alone():
+def test_its_moment_about_the_tangent_is_constant_until_walls_fold_and_then_its_work_is_spent():
     side, law = math.pi * 0.024 / 2.0, across(5.0, "tangent")
-    falling = 130.0 * (0.002 / side) ** 2
-    assert falling in law.kinks()
-    twisted = law.moment_capacity([0.99 * falling, 2.0 * falling])
-    np.testing.assert_allclose(twisted, [law.torque, law.torque * 0.5**1.75], rtol=0.01)
-    kept = across(90.0).moment_capacity(2.0 * falling)
-    bending = float(build_law("library", TUBE, STEEL).moment_capacity(2.0 * falling))
+    folding = 85.0 * (0.002 / side) ** 2
+    assert folding in law.kinks()
+    twisted = law.moment_capacity([0.99 * folding, 2.0 * folding])
+    np.testing.assert_allclose(twisted, [law.torque, law.torque / 2.0], rtol=0.01)
+    # about the bisector the torque of the members does not fall
+    kept = across(90.0).moment_capacity(2.0 * folding)
+    bending = float(build_law("library", TUBE, STEEL).moment_capacity(2.0 * folding))
     parts = 0.5 / across().distortion ** 2 + 0.5 / across().torque ** 2 + 0.5 / bending**2
     assert float(kept) == pytest.approx(parts**-0.5, rel=1e-3)
 
