@@ -21,11 +21,11 @@ FOLDER = Path(__file__).parent / "shells"
 
 @dataclass(frozen=True)
 class ShellResults:
-    """Figures of the shell runs of a structure, by the name of the run; layouts have no `fine` one."""
+    """Figures of the shell runs of a structure, by the name of the run; None: it has no such run."""
 
     nominal: Measures
-    coarse: Measures
-    imperfect: Measures
+    coarse: Measures | None = None
+    imperfect: Measures | None = None
     fine: Measures | None = None
 
     @property
@@ -36,6 +36,8 @@ class ShellResults:
     @property
     def pairs(self) -> tuple[tuple[Measures, Measures], ...]:
         """Runs that differ in the mesh, the two finest ones, and in the imperfection."""
+        if self.coarse is None or self.imperfect is None:
+            return ()
         meshes = (self.nominal, self.coarse) if self.fine is None else (self.fine, self.nominal)
         return (meshes, (self.imperfect, self.coarse))
 

@@ -9,13 +9,14 @@ import pytest
 from tests.concordance.layouts import LAYOUTS
 from tests.concordance.page import page
 from tests.concordance.ranking import ranking
-from tests.concordance.stored import FOLDER, missing, to_json
-from tests.concordance.suite import CASES, FAMILIES, STRUCTURES
+from tests.concordance.stored import FOLDER, missing, read, to_json
+from tests.concordance.suite import CASES, DRAWN, FAMILIES, STRUCTURES
 
 from crumple.analysis import Analysis, loads, solve
 from crumple.comparison import with_frames
-from crumple.comparison.measure.decisive import figures_of
+from crumple.comparison.measure.decisive import TARGETS, figures_of
 from crumple.comparison.measure.measures import Measures, measure
+from crumple.section import AXES, half_fold_length
 
 L_FRAME = """crumple: 1
 materials:
@@ -109,15 +110,39 @@ def test_ranking_counts_the_pairs_that_shells_tell_apart() -> None:
 
 
 def test_the_suite_is_complete_and_its_inputs_are_sound() -> None:
-    assert len(STRUCTURES) == 34
+    assert len(STRUCTURES) == 58
+    assert len(DRAWN) == 24
     assert len(LAYOUTS) == 24
-    assert {half for half, _ in FAMILIES.values()} == {"tuned-on", "judged-by"}
+    assert {half for half, _ in FAMILIES.values()} == {"tuned-on", "judged-by", "drawn"}
     for case in CASES.values():
         analysis = case.analysis()
         assert analysis.structure.members
         runs = case.shell_runs()
+        if case.half == "drawn":
+            assert list(runs) == ["nominal"]
+            assert _along_half_a_fold(analysis) > 4.55
+            continue
         assert runs["coarse"].shell.element_size > runs["nominal"].shell.element_size
         assert runs["imperfect"].shell.imperfection > 0.0
+
+
+def _along_half_a_fold(analysis: Analysis) -> float:
+    """Least number of elements along half a fold."""
+    structure, size = analysis.structure, analysis.shell.fine_size
+    assert size is not None
+    folds = [
+        half_fold_length(structure.section_of(member), axis) for member in structure.members for axis in AXES
+    ]
+    return min(folds) / size
+
+
+def test_figures_of_drawn_frames_are_judged_by_the_targets_alone() -> None:
+    shells = read(CASES[DRAWN[0]])
+    assert shells is not None
+    assert shells.pairs == ()
+    assert shells.reference is shells.nominal
+    figures = figures_of(shells.nominal, shells.reference, shells.pairs)
+    assert {figure.allowed for figure in figures["displacement"]} == {TARGETS["displacement"]}
 
 
 def test_stored_shell_results_are_of_the_present_inputs() -> None:
