@@ -258,3 +258,12 @@ def test_corners_out_of_their_plane_harden_as_a_piece_that_is_twisted(section, a
         assert left[-1] < 0.9
         kept = float(plain.moment_capacity(0.0)) * (rest + (1.0 - rest) * left)
     np.testing.assert_allclose(hard.moment_capacity(TURNS), kept * share, rtol=1e-9)
+
+
+def test_a_flow_stress_without_a_curve_does_not_make_walls_fold_later():
+    flowing = replace(STEEL, given_flow_stress=1.4 * STEEL.yield_stress)
+    with_it, without = (
+        build_law("mitred_corner_across", TUBE, one, "z", angle=1.2, about="tangent")
+        for one in (flowing, STEEL)
+    )
+    assert with_it.folding == without.folding
