@@ -81,7 +81,9 @@ def test_a_moment_that_falls_early_needs_few_points():
     # chords of equal relative error: log(pi/7e-4)/sqrt(4 error)
     assert found.rotation.size < 1.5 * math.log(math.pi / 7e-4) / math.sqrt(4e-4)
     at = np.geomspace(1e-4, 3.0, 1000)
-    np.testing.assert_allclose(np.interp(at, found.rotation, found.moment), law.moment_capacity(at), rtol=1e-4)
+    np.testing.assert_allclose(
+        np.interp(at, found.rotation, found.moment), law.moment_capacity(at), rtol=1e-4
+    )
 
 
 def test_points_grow_with_the_root_of_the_accuracy():
