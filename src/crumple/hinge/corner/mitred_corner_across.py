@@ -50,6 +50,7 @@ from crumple.hinge.registry import build_law
 from crumple.hinge.stop import Stop
 from crumple.hinge.torsion.plastic import PlasticTorsion
 from crumple.hinge.tube_library.hardening import at_yield, hardens
+from crumple.hinge.tube_library.tube import hardening_ratio
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.registry.quantity import PositiveAngle
@@ -256,8 +257,7 @@ class MitredCornerAcrossLaw:
 
 def _later(material: Material) -> float:
     """How much later walls fold because they harden [-]."""
-    flow = material.flow_stress if hardens(material) else material.yield_stress
-    return 1.0 + LATER * (flow / material.yield_stress - 1.0)
+    return 1.0 + LATER * (hardening_ratio(material) - 1.0) if hardens(material) else 1.0
 
 
 def _twisted(

@@ -260,10 +260,13 @@ def test_corners_out_of_their_plane_harden_as_a_piece_that_is_twisted(section, a
     np.testing.assert_allclose(hard.moment_capacity(TURNS), kept * share, rtol=1e-9)
 
 
-def test_a_flow_stress_without_a_curve_does_not_make_walls_fold_later():
-    flowing = replace(STEEL, given_flow_stress=1.4 * STEEL.yield_stress)
-    with_it, without = (
-        build_law("mitred_corner_across", TUBE, one, "z", angle=1.2, about="tangent")
-        for one in (flowing, STEEL)
+def test_a_curve_delays_folds_about_the_tangent_and_a_flow_stress_does_not():
+    flow = {"given_flow_stress": 1.4 * STEEL.yield_stress}
+    plain, flowing, hard, both = (
+        build_law("mitred_corner_across", TUBE, one, "z", angle=1.2, about="tangent").folding
+        for one in (STEEL, replace(STEEL, **flow), HARDENING, replace(HARDENING, **flow))
     )
-    assert with_it.folding == without.folding
+    assert flowing == plain
+    # the curve goes before a flow stress
+    assert both == hard
+    assert hard > 1.2 * plain
