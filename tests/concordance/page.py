@@ -18,8 +18,8 @@ HEAD = f"""# Concordance of multibody models and shells
 
 Written by `make concordance`; what is measured and how it is judged: [theory](theory/concordance.md).
 
-Every structure was solved by shells on three meshes: that of its input, one with elements in the folds
-{FINER:g} times as long (not the layouts, nor {", ".join(NOT_FINER)}), and one with
+Every structure of the halves was solved by shells on three meshes: that of its input, one with elements
+in the folds {FINER:g} times as long (not the layouts, nor {", ".join(NOT_FINER)}), and one with
 elements {COARSER:g} times as long, which was also solved with an imperfection of
 {100 * IMPERFECTION:g} % of the wall. These results are stored in `tests/concordance/shells` with their
 provenance; the finest mesh is the reference. The multibody models are solved again whenever this page is

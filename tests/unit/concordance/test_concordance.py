@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.concordance.judging import Verdict
 from tests.concordance.layouts import LAYOUTS
 from tests.concordance.page import page
 from tests.concordance.ranking import ranking
@@ -143,6 +144,17 @@ def test_figures_of_drawn_frames_are_judged_by_the_targets_alone() -> None:
     assert shells.reference is shells.nominal
     figures = figures_of(shells.nominal, shells.reference, shells.pairs)
     assert {figure.allowed for figure in figures["displacement"]} == {TARGETS["displacement"]}
+
+
+def test_the_page_shows_drawn_frames_beside_the_halves() -> None:
+    case = CASES[DRAWN[0]]
+    shells = read(case)
+    assert shells is not None
+    figures = figures_of(shells.nominal, shells.reference, shells.pairs)
+    text = page([Verdict(case, "elastic members", shells.nominal, shells, figures)])
+    head, _, own = text.partition("## Drawn frames\n")
+    assert "half\n" not in head
+    assert f"| {case.name} | elastic members | 0.0 % |" in own
 
 
 def test_stored_shell_results_are_of_the_present_inputs() -> None:
