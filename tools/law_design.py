@@ -10,8 +10,9 @@ same with a and b exchanged.  The range is given by slenderness max(a, b)/t and 
 
 Training points are a Sobol sequence, pushed towards the ends of the range (there a regression extrapolates),
 on a coarse mesh; some of them are solved on the nominal mesh too.  Round tubes with hardening are another
-Sobol sequence, on the nominal mesh only.  Held-out points are uniform random numbers from seeds of their own,
-on the nominal mesh.  Nobody chooses anything by the latter.
+Sobol sequence, on the nominal mesh only.  Metals that harden strongly, and thicker round tubes, came later: a
+third sequence, on the coarse mesh.  Held-out points are uniform random numbers from seeds of their own, on
+the nominal mesh.  Nobody chooses anything by the latter.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ from crumple.numeric.arrays import Floats
 from crumple.section import CircularTube, RectangularTube, Section
 
 Kind = Literal["rectangular_tube", "circular_tube"]
-Role = Literal["training", "earlier", "former", "mesh", "hardened", "held-out", "check"]
+Role = Literal["training", "earlier", "former", "mesh", "hardened", "strong", "held-out", "check"]
 
 SLENDERNESS = (15.0, 60.0)
 """Larger side, or diameter, over wall."""
@@ -43,7 +44,11 @@ DEEPEST = 0.7
 YIELD_STRAIN = (0.0012, 0.004)
 """Yield stress over Young's modulus."""
 HARDENING = (1.0, 1.8)
-"""Stress at a plastic strain of 0.1 over the yield stress."""
+"""Stress at a plastic strain of 0.1 over the yield stress, of the points but strong ones."""
+STRONGEST = 2.4
+"""The largest one of strong points."""
+THICKEST_ROUND = 12.0
+"""Diameter over wall of the thickest round strong points."""
 WITHOUT_HARDENING = 0.4
 """Share of the points without hardening: an edge of the range, and the most frequent case."""
 PRESTRAIN = 0.01
@@ -57,9 +62,14 @@ HARDENED = {"rectangular_tube": 0, "circular_tube": 8}
 """Points with hardening that are solved on the nominal mesh only: most others have none."""
 LEAST_HARDENED = 1.2
 """Their least stress at a plastic strain of 0.1 over the yield stress."""
+STRONG = {"rectangular_tube": 6, "circular_tube": 7}
+"""Points on the coarse mesh with a hardening from `LEAST_STRONG` to `STRONGEST`."""
+LEAST_STRONG = 1.7
 HELD_OUT = {"rectangular_tube": 3, "circular_tube": 1}
 LATER_HELD_OUT = {"rectangular_tube": 0, "circular_tube": 4}
 """More of them, with a hardening that is uniform over its whole range."""
+STRONG_HELD_OUT = {"rectangular_tube": 1, "circular_tube": 2}
+"""Held-out points with a hardening from `HARDENING[1]` to `STRONGEST`."""
 MESH: dict[str, tuple[tuple[Role, int], ...]] = {
     "rectangular_tube": (
         *(("training", 0), ("training", 12), ("training", 5), ("training", 17), ("training", 18)),
@@ -94,8 +104,8 @@ They are those of first designs, of wider ranges, that were given up for their c
 was solved."""
 CHECK = {"rectangular_tube": ((25.0, 1.0, 350e6 / 210e9, 1.0, NOMINAL),), "circular_tube": ()}
 """Held out on the nominal mesh: the tube 50x50x2 mm with 350 MPa."""
-SEED, LATER_SEED, FORMER_SEED = 20261, 20262, 20260
-"""Of the held-out points, of the later ones, and of those that were held out before."""
+SEED, LATER_SEED, FORMER_SEED, STRONG_SEED = 20261, 20262, 20260, 20264
+"""Of the held-out points, of the later ones, of those that were held out before, and of the strong ones."""
 WALL = 1e-3
 """Thickness of every tube that is solved [m]; only ratios matter."""
 YOUNGS_MODULUS = 210e9
@@ -168,7 +178,7 @@ def _numbered() -> Iterator[tuple[float, Point]]:
             Point(f"{kind}-check-{number:02d}", kind, "check", *place)
             for number, place in enumerate(CHECK[kind])
         ]
-        coarse = ((earlier, 0.0), (training, 0.0), (former, 0.0))
+        coarse = ((earlier, 0.0), (training, 0.0), (former, 0.0), (list(_strong(kind)), 0.0))
         nominal = (mesh, list(_held_out(kind)), check, list(_hardened(kind)))
         for group, begin in (*coarse, *((each, 1.0) for each in nominal)):
             for number, point in enumerate(group):
@@ -190,6 +200,20 @@ def _hardened(kind: Kind) -> Iterator[Point]:
         yield replace(one, hardening=float(np.round(hardening, 6)), elements=NOMINAL)
 
 
+def _strong(kind: Kind) -> Iterator[Point]:
+    unit = qmc.Sobol(4, scramble=True, seed=4 if kind == "rectangular_tube" else 5).random_base2(3)
+    for number, place in enumerate(0.5 - 0.5 * np.cos(math.pi * unit[: STRONG[kind]])):
+        yield _strong_point(f"{kind}-strong-{number:02d}", kind, "strong", place, LEAST_STRONG)
+
+
+def _strong_point(name: str, kind: Kind, role: Role, place: Floats, least: float) -> Point:
+    round_tube = kind == "circular_tube"
+    slenderness = _between((THICKEST_ROUND if round_tube else THICKEST, SLENDERNESS[1]), place[0])
+    ratio = 1.0 if round_tube else _between((DEEPEST, RATIO[1]), place[1])
+    hardening = float(np.round(least + (STRONGEST - least) * place[3], 6))
+    return Point(name, kind, role, slenderness, ratio, _between(YIELD_STRAIN, place[2]), hardening, COARSE)
+
+
 def _former(kind: Kind) -> Iterator[Point]:
     random = np.random.default_rng([FORMER_SEED, len(kind)])
     for number, place in enumerate(random.uniform(size=(FORMER[kind], 4))):
@@ -207,6 +231,10 @@ def _held_out(kind: Kind) -> Iterator[Point]:
         one = _point(kind, "held-out", number, place[:3], place[3])
         ratio = 1.0 if kind == "circular_tube" else _between((DEEPEST, RATIO[1]), place[1])
         yield replace(one, slenderness=_between(slenderness, place[0]), ratio=ratio, elements=NOMINAL)
+    strong = np.random.default_rng([STRONG_SEED, len(kind)]).uniform(size=(STRONG_HELD_OUT[kind], 4))
+    for number, place in enumerate(strong, len(first) + len(later)):
+        one = _strong_point(f"{kind}-held-out-{number:02d}", kind, "held-out", place, HARDENING[1])
+        yield replace(one, elements=NOMINAL)
 
 
 def _point(kind: Kind, role: Role, number: int, place: Floats, hardening: float) -> Point:
