@@ -1,4 +1,4 @@
-"""Bending laws of circular tubes beside a clamp: which cantilevers are solved, and with what result.
+"""Bending laws of tubes beside a clamp: which cantilevers are solved, and with what result.
 
     python -m tools.law_clamped solve tools/tube_library     solve what is missing; may be stopped at any time
     python -m tools.law_clamped table tools/tube_library     fit, and write the table that is shipped
@@ -9,9 +9,13 @@ has the moment M - F x, and turns by the plastic rotation of the two half folds 
 
     rotation of the section at g  -  (M g - F g^2/2)/(E I)
 
-Bending beyond is that of the member.  Fitted are, on the nominal mesh, four tubes without hardening and the
-four of the library; five of them, and the tubes of the library with hardening, on the coarse mesh.  Held out
-are two tubes without hardening and three with it.  Nobody chooses anything by these.
+up to the largest moment, and from there on by as much as the tip, whose elastic rotation is F L^2/(2 E I):
+the fold may lie further from the clamp.  Bending beyond is that of the member.
+
+Of round tubes four without hardening and the four of the library are fitted on the nominal mesh; five of
+them, and the tubes of the library with hardening, on the coarse mesh; held out are two tubes without
+hardening and three with it.  Of rectangular tubes all points of the library are solved, with the same meshes
+and the same ones held out.  Nobody chooses anything by the tubes that are held out.
 """
 
 from __future__ import annotations
@@ -25,60 +29,75 @@ from pathlib import Path
 import numpy as np
 from tools.law_design import COARSE, NOMINAL, Kind, Point, Role, points
 from tools.law_fit import Solved
-from tools.law_library import LARGEST, error_of, fits_of, percents, run_verb, write_table
+from tools.law_library import (
+    HELD_OUT,
+    LARGEST,
+    PLACE,
+    error_of,
+    fits_of,
+    percents,
+    run_verb,
+    write_table,
+)
 
 from crumple.analysis import Analysis, solve
 from crumple.characterisation.curve import law_curve
 from crumple.characterisation.resolution import Resolution
-from crumple.hinge.tube_library.clamped import TABLE
-from crumple.section import CircularTube, fold_distance, half_fold_length
+from crumple.hinge.tube_library.clamped import TABLES
+from crumple.numeric.arrays import Floats
+from crumple.section import Section, fold_distance, half_fold_length
 from crumple.structure import Structure
 
-KIND: Kind = "circular_tube"
 METHOD = "clamped cantilevers, driven across at their tips, docs/theory/tube_library.md"
-DIAMETERS = 8.0
-"""Length of the cantilevers over the diameter."""
+LENGTH = {"circular_tube": 8.0, "rectangular_tube": 6.0}
+"""Length of the cantilevers over the diameter or the larger side."""
 END = math.radians(42.0)
 """Rotation of the chord of the tip at the end."""
-SLOWNESS = 5.0
+SLOWNESS = {"circular_tube": 5.0, "rectangular_tube": 4.0}
 """As in `Resolution`, of the whole cantilever."""
+ROUND: Kind = "circular_tube"
 PLASTIC = ((17.0, 0.0032), (24.0, 0.0013), (40.0, 0.0017), (57.0, 0.0028))
 """Fitted tubes without hardening: diameter over wall, yield strain."""
 SEED = 20263
 """Of the two tubes without hardening that are held out: uniform in the logarithms of the range."""
 HARDENED_HELD_OUT = ("held-out-03", "held-out-05", "held-out-06")
-"""Of the held-out tubes of the library with hardening, those that are solved."""
+"""Of the held-out round tubes of the library with hardening, those that are solved."""
 PAIRS = ("plastic-training-01", "plastic-training-03", "mesh-01", "mesh-02", "mesh-03")
-"""Tubes that are solved on both meshes."""
+"""Round tubes that are solved on both meshes."""
 
 
-def design() -> tuple[Point, ...]:
+def design(kind: Kind) -> tuple[Point, ...]:
     """Cantilevers in the order of solution; their names are those of the free tubes."""
-    free = {one.name: one for one in points() if one.kind == KIND and one.elements == NOMINAL}
-    strong = [one for one in points() if one.kind == KIND and one.role == "strong"]
+    own = [one for one in points() if one.kind == kind]
+    return _round(own) if kind == ROUND else tuple(own)
+
+
+def _round(own: list[Point]) -> tuple[Point, ...]:
+    strong = [one for one in own if one.role == "strong"]
+    free = {one.name: one for one in own if one.elements == NOMINAL}
     mesh = [one for one in free.values() if one.role == "mesh"]
     hardened = [one for one in free.values() if one.role == "hardened"]
     plastic = [_plastic("training", number, *place) for number, place in enumerate(PLASTIC)]
-    pairs = [one for one in (*plastic, *mesh) if one.name.removeprefix(f"{KIND}-") in PAIRS]
+    pairs = [one for one in (*plastic, *mesh) if one.name.removeprefix(f"{ROUND}-") in PAIRS]
     random = np.random.default_rng(SEED).uniform(size=(2, 2))
     places = [(15.0 * 4.0**a, 0.0012 * (0.004 / 0.0012) ** b) for a, b in random]
     held_out = [_plastic("held-out", number, *place) for number, place in enumerate(places)]
     coarse = [replace(one, name=f"{one.name}-coarse", elements=COARSE) for one in (*pairs, *hardened)]
-    hardened_held_out = (free[f"{KIND}-{name}"] for name in HARDENED_HELD_OUT)
+    hardened_held_out = (free[f"{ROUND}-{name}"] for name in HARDENED_HELD_OUT)
     return (*plastic, *mesh, *coarse, *strong, *held_out, *hardened_held_out)
 
 
 def _plastic(role: Role, number: int, slenderness: float, strain: float) -> Point:
-    name = f"{KIND}-plastic-{role}-{number:02d}"
-    return Point(name, KIND, role, round(slenderness, 6), 1.0, round(strain, 6), 1.0, NOMINAL)
+    name = f"{ROUND}-plastic-{role}-{number:02d}"
+    return Point(name, ROUND, role, round(slenderness, 6), 1.0, round(strain, 6), 1.0, NOMINAL)
 
 
-def cantilever(point: Point, diameters: float = DIAMETERS) -> Analysis:
+def cantilever(point: Point) -> Analysis:
     """Cantilever of a tube, its tip driven across."""
     section, material = point.section, point.material
-    assert isinstance(section, CircularTube)
-    half, length = half_fold_length(section), diameters * section.diameter
-    duration = Resolution(slowness=SLOWNESS).duration(section, material, "y", length, END)
+    sides = _sides(section)
+    half, length = half_fold_length(section), LENGTH[point.kind] * max(sides)
+    duration = Resolution(slowness=SLOWNESS[point.kind]).duration(section, material, "y", length, END)
     drive = {"x0": 0.0, "h0": 0.0, "x1": duration, "h1": -length * math.sin(END)}
     return Analysis(
         structure=Structure(
@@ -93,7 +112,7 @@ def cantilever(point: Point, diameters: float = DIAMETERS) -> Analysis:
         ),
         duration=duration,
         shell={
-            "element_size": section.diameter / 5.0,
+            "element_size": max(min(sides) / 5.0, half / point.elements),
             "fine_size": half / point.elements,
             "fine_length": 3.0 * half,
         },
@@ -103,6 +122,12 @@ def cantilever(point: Point, diameters: float = DIAMETERS) -> Analysis:
             "section_rotations": {"fold": {"member": "arm", "from": 0.0, "to": 2.0 * half}},
         },
     )
+
+
+def _sides(section: Section) -> tuple[float, float]:
+    """Width and depth, or the diameter twice [m]."""
+    low, high = section.outline().min(axis=0), section.outline().max(axis=0)
+    return tuple((high - low).tolist())
 
 
 def histories(point: Point, analysis: Analysis) -> dict[str, list[float]]:
@@ -126,7 +151,7 @@ def histories(point: Point, analysis: Analysis) -> dict[str, list[float]]:
 
 def solve_missing(folder: Path) -> None:
     """Solve the cantilevers that the folder lacks."""
-    for point in design():
+    for point in (point for kind in TABLES for point in design(kind)):
         path = folder / f"clamped-{point.name}.json"
         if not path.exists():
             begun = time.process_time()
@@ -135,26 +160,38 @@ def solve_missing(folder: Path) -> None:
             print(f"{point.name} {time.process_time() - begun:.0f} s", flush=True)
 
 
-def read(folder: Path, *, held_out: bool) -> list[Solved]:
+def read(folder: Path, kind: Kind, *, held_out: bool) -> list[Solved]:
     """Solved cantilevers."""
     found = []
-    for point in design():
-        if (point.role == "held-out") is held_out:
+    for point in design(kind):
+        if (point.role in HELD_OUT) is held_out:
             own = json.loads((folder / f"clamped-{point.name}.json").read_text())["histories"]
-            curve = law_curve(np.array(own["fold"]), np.array(own["moment"]), LARGEST)
+            curve = law_curve(fold_rotation(own), np.array(own["moment"]), LARGEST)
             found.append(Solved(asdict(point), curve.rotation, curve.moment))
     return found
 
 
+def fold_rotation(own: dict[str, list[float]]) -> Floats:
+    """Plastic rotation of the fold of a cantilever [rad], wherever it is.
+
+    Up to the largest moment walls yield over a length of the member, of which the fold has the part beside
+    the clamp.  From there on only the fold turns, and the rest of the member is elastic.
+    """
+    fold, tip = np.array(own["fold"]), np.array(own["tip"])
+    peak = int(np.argmax(own["moment"]))
+    return np.asarray(np.concatenate([fold[:peak], fold[peak] + tip[peak:] - tip[peak]]))
+
+
 def table(folder: Path) -> None:
-    """Fit and write the table, with errors at tubes that were left out or held out."""
-    fitted, held_out = read(folder, held_out=False), read(folder, held_out=True)
-    provenance = {"method": METHOD, "imperfection": "none"}
-    found = write_table(TABLE, KIND, provenance, fits_of(KIND, fitted), (fitted, held_out))
-    for one, own in zip((*fitted, *held_out), found.facts["points"], strict=True):
-        errors = own.get("left_out", error_of(found, one))
-        place = " ".join(f"{own[key]:8.4g}" for key in ("slenderness", "yield_strain", "hardening"))
-        print(f"{own['role']:9} {place}   {percents(errors)}")
+    """Fit and write the tables, with errors at tubes that were left out or held out."""
+    for kind, name in TABLES.items():
+        fitted, held_out = (read(folder, kind, held_out=out) for out in (False, True))
+        provenance = {"method": METHOD, "imperfection": "none"}
+        found = write_table(name, kind, provenance, fits_of(name, kind, fitted), (fitted, held_out))
+        for one, own in zip((*fitted, *held_out), found.facts["points"], strict=True):
+            errors = own.get("left_out", error_of(found, one))
+            place = " ".join(f"{own[key]:8.4g}" for key in PLACE)
+            print(f"{own['role']:9} {place}   {percents(errors)}")
 
 
 if __name__ == "__main__":

@@ -29,7 +29,9 @@ from tools.law_design import (
     NOMINAL,
     RATIO,
     SLENDERNESS,
+    STRONGEST,
     THICKEST,
+    THICKEST_ROUND,
     TRAINING,
     YIELD_STRAIN,
     Point,
@@ -59,7 +61,7 @@ thick tubes that harden turn plastically too, which left laws of 23 to 39 deg of
 PLACE = ("slenderness", "ratio", "yield_strain", "hardening")
 NOMINAL_ROLES: tuple[Role, ...] = ("mesh", "hardened")
 """Points on the nominal mesh that are fitted."""
-ROLES: tuple[Role, ...] = ("training", "earlier", "former", *NOMINAL_ROLES)
+ROLES: tuple[Role, ...] = ("training", "earlier", "former", "strong", *NOMINAL_ROLES)
 """Points that are fitted."""
 HELD_OUT: tuple[Role, ...] = ("held-out", "check")
 """Points that are not."""
@@ -74,8 +76,10 @@ SOLID = {"rectangular_tube": 0.09, "circular_tube": 0.0}
 """Largest difference of energies from solids (50x25x2.65 mm, 488 MPa, to 42 deg); bands contain it."""
 METAL = (
     Coordinate("yield_strain", *YIELD_STRAIN, True),
-    Coordinate("hardening", *HARDENING, True),
+    Coordinate("hardening", HARDENING[0], STRONGEST, True),
 )
+ROUND = (THICKEST_ROUND, SLENDERNESS[1])
+"""Diameter over wall."""
 SIDE = (SLENDERNESS[0] * RATIO[0], SLENDERNESS[1])
 BUCKLING = tuple(side * math.sqrt(strain) for side, strain in zip(SIDE, YIELD_STRAIN, strict=True))
 CHOICES = {
@@ -86,7 +90,7 @@ CHOICES = {
         (Coordinate("flange_buckling", *BUCKLING, True), Coordinate("ratio", *RATIO, True), *METAL),
     ),
     "circular_tube": (
-        (Coordinate("slenderness", *SLENDERNESS, True), *METAL),
+        (Coordinate("slenderness", *ROUND, True), *METAL),
         (Coordinate("flange_buckling", *BUCKLING, True), *METAL),
     ),
 }
@@ -189,7 +193,7 @@ def table(folder: Path) -> None:
     for kind in TRAINING:
         fitted = [one for role in ROLES for one in read(folder, kind, role)]
         held_out = [one for role in HELD_OUT for one in read(folder, kind, role)]
-        fits = fits_of(kind, fitted)
+        fits = fits_of(kind, kind, fitted)
         for one in fits:
             keys = [coordinate.key for coordinate in one.coordinates]
             print(kind, keys, f"degree {one.degree}, step {[keys[number] for number in one.step]}")
@@ -200,9 +204,9 @@ def table(folder: Path) -> None:
         write_table(kind, kind, {}, fits, (fitted, held_out), least_band=SOLID[kind])
 
 
-def fits_of(kind: str, fitted: list[Solved]) -> list[Fit]:
-    """Best fit by each choice of coordinates."""
-    return [best_fit(choice, points_of(choice, kind, fitted)) for choice in CHOICES[kind]]
+def fits_of(name: str, kind: str, fitted: list[Solved]) -> list[Fit]:
+    """Best fit of a table by each choice of coordinates."""
+    return [best_fit(choice, points_of(choice, name, fitted)) for choice in CHOICES[kind]]
 
 
 def write_table(
@@ -238,7 +242,7 @@ def write_table(
         | provenance
         | {"crumple": __version__, "elements along half a fold": [COARSE, NOMINAL]},
         "coordinates": [asdict(one) for one in fit.coordinates],
-        "ranges": ranges(kind),
+        "ranges": ranges(name),
         "rotation_deg": KNOTS.tolist(),
         "band": 0.0,
         "fit": settings(fit) | fit.entries,
@@ -278,8 +282,8 @@ def settings(fit: Fit) -> dict[str, Any]:
     return {"degree": fit.degree, "step": step, "noise": noise, "step_variance": variance}
 
 
-def points_of(coordinates: tuple[Coordinate, ...], kind: str, solved: list[Solved]) -> Points:
-    """Solved points as the fit takes them."""
+def points_of(coordinates: tuple[Coordinate, ...], name: str, solved: list[Solved]) -> Points:
+    """Solved points as the fit of a table takes them."""
     places = [
         [one.scaled(value) for one, value in zip(coordinates, columns(coordinates, each), strict=True)]
         for each in solved
@@ -287,7 +291,7 @@ def points_of(coordinates: tuple[Coordinate, ...], kind: str, solved: list[Solve
     element = 1.0 / np.array([one.point["elements"] for one in solved])
     # a tube on another mesh has another whole number of elements, so its sides differ a little
     tubes = [tuple(one.point[key] for key in PLACE if key != "ratio") for one in solved]
-    counted = [all(within(one.point[key], *range_) for key, range_ in ranges(kind).items()) for one in solved]
+    counted = [all(within(one.point[key], *range_) for key, range_ in ranges(name).items()) for one in solved]
     return Points(
         np.array(places),
         (element - 1.0 / NOMINAL) / (1.0 / COARSE - 1.0 / NOMINAL),
@@ -302,14 +306,14 @@ def columns(coordinates: tuple[Coordinate, ...], one: Solved) -> Floats:
     return np.array([coordinate(which, one.point) for which in coordinates])
 
 
-def ranges(kind: str) -> dict[str, tuple[float, float]]:
-    """Range of the table by name."""
-    own = {"slenderness": SLENDERNESS, "yield_strain": YIELD_STRAIN, "hardening": HARDENING}
-    return (
-        own
-        if kind == "circular_tube"
-        else {**own, "slenderness": (THICKEST, SLENDERNESS[1]), "ratio": (DEEPEST, RATIO[1])}
-    )
+def ranges(name: str) -> dict[str, tuple[float, float]]:
+    """Range of a table by name of the coordinate: beside a clamp thick and deep tubes fold there, too."""
+    metal = {"yield_strain": YIELD_STRAIN, "hardening": (HARDENING[0], STRONGEST)}
+    if name.endswith("circular_tube"):
+        return {"slenderness": ROUND, **metal}
+    if name.startswith("clamped"):
+        return {"slenderness": SLENDERNESS, "ratio": RATIO, **metal}
+    return {"slenderness": (THICKEST, SLENDERNESS[1]), "ratio": (DEEPEST, RATIO[1]), **metal}
 
 
 def entry(one: Solved, left_out: Floats | None = None) -> dict[str, Any]:

@@ -33,10 +33,14 @@ Automatic hinges of rigid members do not shorten: frames at walls stop at once, 
 HEADS = {
     "judged-by": "## Judged-by half\n",
     "tuned-on": "## Tuned-on half\n",
-    "drawn": """## Drawn frames
+    "drawn later": """## Frames drawn later
 
 Drawn by a program and solved by shells once, with 4.6 elements or more along half a fold. Their shells have
-no spread, so the targets alone decide. No model was changed because of them.
+no spread, so the targets alone decide. They are only counted: nobody has looked at a single one of them.
+""",
+    "drawn": """## Drawn frames
+
+Drawn by the same program from another seed, and solved and judged in the same way. They may be looked at.
 """,
 }
 

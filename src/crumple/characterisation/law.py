@@ -12,7 +12,7 @@ from crumple.hinge.measured.place_hash import CORNER, PLACE, REVISION
 from crumple.hinge.measured.stored import StoredCurve, StoredLaw
 from crumple.version import __version__
 
-CORNER_METHOD = 4
+CORNER_METHOD = 5
 """Number of the way in which sub-models of corners are built and measured; before 4 the pieces of deep
 sections at steep angles were too short for a mitre."""
 CITATION = "shell sub-model, docs/theory/characterisation.md"

@@ -20,15 +20,19 @@ from crumple.characterisation.curve import LawCurve, law_curve
 from crumple.characterisation.resolution import NOMINAL, Resolution
 from crumple.characterisation.sub_model import Histories, corner_piece, is_mirrored, largest_side
 from crumple.errors import InputError, Problem
+from crumple.hinge.corner.mitred_corner_across import distorted_length
 from crumple.hinge.measured.place_hash import ABOUT, CORNER, Direction, Load, place_hash
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.result import Result
-from crumple.section import Axis, Section, plastic_interaction
+from crumple.section import Axis, RectangularTube, Section, plastic_interaction
 from crumple.structure import Structure
 
 STUB = 2.75
 """Length of each piece over the largest side: one side is the corner's, the rest room for end effects."""
+DISTORTED = 1.4
+"""Length of each piece of a rectangular tube about the bisector over the length that the corner distorts, at
+least: a rigid end within it holds the walls."""
 OUTPUTS = 400
 """Points in time at which it is measured."""
 OVERSHOOT, ELASTIC_TURN = 1.05, math.radians(4.0)
@@ -131,9 +135,11 @@ class OutOfPlane:
 
     @property
     def piece(self) -> float:
-        """Length of each piece [m], long enough for a mitre."""
-        usual = STUB * self.length_factor * largest_side(self.section)
-        return max(usual, corner_piece(self.section, self.axis, self.angle))
+        """Length of each piece [m], long enough for a mitre, and for the walls that the corner distorts."""
+        usual = STUB * largest_side(self.section)
+        if self.about == "bisector" and isinstance(self.section, RectangularTube):
+            usual = max(usual, DISTORTED * distorted_length(self.section))
+        return max(self.length_factor * usual, corner_piece(self.section, self.axis, self.angle))
 
     @property
     def length(self) -> float:

@@ -96,9 +96,11 @@ Fold = Literal["free", "clamped"]
 """Whether a fold lies between joints and clamps, or beside one, which keeps the section in shape."""
 FOLD_BENDING: dict[Fold, dict[str, str]] = {
     "free": {"circular_tube": "library", "rectangular_tube": "library"},
-    "clamped": {"circular_tube": "clamped_tube"},
+    "clamped": {"circular_tube": "clamped_tube", "rectangular_tube": "clamped_tube"},
 }
 """Law that goes before the formula in such folds: docs/theory/tube_library.md."""
+DEEP = 0.9
+"""Flange width over depth up to which it does so at rectangular tubes beside a clamp that do not harden."""
 HARDENING_BENDING = {"rectangular_tube": "hardening_tube", "circular_tube": "hardening_tube"}
 """Law that goes before the formula if the metal has a hardening curve."""
 AXIAL: Registry[AxialLawType] = Registry(

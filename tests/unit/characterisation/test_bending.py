@@ -194,7 +194,7 @@ def test_laws_of_corners_of_an_earlier_method_are_computed_again_and_not_preferr
     curve = LawCurve(np.array([0.0, 0.2]), np.array([900.0, 500.0]), np.array([0.0, 140.0]))
     law = law_of(model, curve, curve, {}, None)
     path = LawStore(tmp_path).path(model)
-    assert "-4-" in path.name
+    assert "-5-" in path.name
     assert "-3-" in LawStore(tmp_path).path(Bending(TUBE, STEEL)).name
     # the earlier law has a known error, which decides among laws of one method
     origin = tuple(one for one in law.origin if one[0] != "revision")

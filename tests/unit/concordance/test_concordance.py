@@ -11,7 +11,7 @@ from tests.concordance.layouts import LAYOUTS
 from tests.concordance.page import page
 from tests.concordance.ranking import ranking
 from tests.concordance.stored import FOLDER, missing, read, to_json
-from tests.concordance.suite import CASES, DRAWN, FAMILIES, STRUCTURES
+from tests.concordance.suite import CASES, DRAWN, DRAWN_LATER, FAMILIES, STRUCTURES
 
 from crumple.analysis import Analysis, loads, solve
 from crumple.comparison import with_frames
@@ -111,15 +111,16 @@ def test_ranking_counts_the_pairs_that_shells_tell_apart() -> None:
 
 
 def test_the_suite_is_complete_and_its_inputs_are_sound() -> None:
-    assert len(STRUCTURES) == 58
+    assert len(STRUCTURES) == 81
     assert len(DRAWN) == 24
+    assert len(DRAWN_LATER) == 23
     assert len(LAYOUTS) == 24
-    assert {half for half, _ in FAMILIES.values()} == {"tuned-on", "judged-by", "drawn"}
+    assert {half for half, _ in FAMILIES.values()} == {"tuned-on", "judged-by", "drawn", "drawn later"}
     for case in CASES.values():
         analysis = case.analysis()
         assert analysis.structure.members
         runs = case.shell_runs()
-        if case.half == "drawn":
+        if case.name in (*DRAWN, *DRAWN_LATER):
             assert list(runs) == ["nominal"]
             assert _along_half_a_fold(analysis) > 4.55
             continue
@@ -146,13 +147,16 @@ def test_figures_of_drawn_frames_are_judged_by_the_targets_alone() -> None:
     assert {figure.allowed for figure in figures["displacement"]} == {TARGETS["displacement"]}
 
 
-def test_the_page_shows_drawn_frames_beside_the_halves() -> None:
-    case = CASES[DRAWN[0]]
+@pytest.mark.parametrize(
+    ("name", "title"), [(DRAWN[0], "## Drawn frames"), (DRAWN_LATER[0], "## Frames drawn later")]
+)
+def test_the_page_shows_drawn_frames_beside_the_halves(name: str, title: str) -> None:
+    case = CASES[name]
     shells = read(case)
     assert shells is not None
     figures = figures_of(shells.nominal, shells.reference, shells.pairs)
     text = page([Verdict(case, "elastic members", shells.nominal, shells, figures)])
-    head, _, own = text.partition("## Drawn frames\n")
+    head, _, own = text.partition(f"{title}\n")
     assert "half\n" not in head
     assert f"| {case.name} | elastic members | 0.0 % |" in own
 

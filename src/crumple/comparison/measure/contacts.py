@@ -25,7 +25,7 @@ from crumple.comparison.measure.rings import carried
 from crumple.numeric.arrays import Floats
 from crumple.result import Result, States
 from crumple.shell.mesh.cut_ends import outline_starts
-from crumple.structure import Structure, gap, joint_reach, plastic_hinges
+from crumple.structure import Structure, gap, joint_reach
 from crumple.structure.hinges.corners import leaving
 
 TOUCHES = 0.1
@@ -36,8 +36,6 @@ LITTLE = 0.03
 may be without a place."""
 SAMPLES = 4
 """Points along the lines of a joint's outline, which are about as long as the section is wide."""
-PIECES = 16
-"""Pieces in which the energy of a joint of an elastic member is spread over its length."""
 TAKEN = ("energy.contact", "energy.friction")
 
 
@@ -192,31 +190,3 @@ def _travel(result: Result, states: States, obstacle: str) -> Floats:
     if any(name not in result.channels for name in names):
         return np.zeros((len(states.times), 3))
     return np.stack([np.interp(states.times, result.time, result[name]) for name in names], axis=1)
-
-
-def hinge_work(result: Result, structure: Structure) -> list[tuple[str, float, float]]:
-    """Member, station [m] and energy [J] of hinges, dents, and what yielded between, in a multibody run.
-
-    A joint of an elastic member stands for a length of it, over which its energy is spread.
-    """
-    hinges = [
-        (hinge.member, hinge.station, float(result[f"hinge.{hinge.name}.energy"][-1]))
-        for hinge in plastic_hinges(structure)
-    ]
-    dents = [(dent.member, dent.station, dent.energy) for dent in result.dents]
-    return [*hinges, *dents, *_spread(result, structure, hinges)]
-
-
-def _spread(
-    result: Result, structure: Structure, hinges: list[tuple[str, float, float]]
-) -> Iterator[tuple[str, float, float]]:
-    """Energy of the joints of elastic members, in pieces of the length up to half way to their neighbours."""
-    for member, joints in result.yielded.items():
-        own = {station for name, station, _ in hinges if name == member} | {station for station, _ in joints}
-        points = np.array(sorted(own))
-        length = structure.frame_of(member).length
-        borders = np.concatenate([[0.0], (points[:-1] + points[1:]) / 2.0, [length]])
-        for station, energy in joints:
-            k = int(np.searchsorted(points, station))
-            middles = borders[k] + (np.arange(PIECES) + 0.5) / PIECES * (borders[k + 1] - borders[k])
-            yield from ((member, float(at), energy / PIECES) for at in middles)

@@ -22,7 +22,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from crumple.comparison.measure.contacts import dissipated_at, hinge_work, impulse
+from crumple.comparison.measure.contacts import dissipated_at, impulse
+from crumple.comparison.measure.energy import distortions, hinge_work
 from crumple.comparison.measure.rings import rotations
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import rotation_vector
@@ -259,6 +260,9 @@ def _zones(result: Result, structure: Structure) -> dict[str, float]:
     for member, station, energy in hinge_work(result, structure):
         add(_zone(structure, member, station), energy)
         rest[member] -= energy
+    for node, (member, station, energy) in distortions(result, structure):
+        add(node, -energy)
+        add(_zone(structure, member, station), energy)
     for end in result.crumpled_ends:
         add(end.node, end.energy)
     for member, energy in rest.items():

@@ -12,7 +12,7 @@ the plastic moment is held.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -23,8 +23,16 @@ from crumple.errors import InputError
 from crumple.hinge.bending.kecman import KecmanLaw
 from crumple.hinge.law import HingeLaw, SofteningVariable, Source, Trust, Validity
 from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor
-from crumple.hinge.registry import DEFAULT_BENDING, FOLD_BENDING, HARDENING_BENDING, Fold, build_law
+from crumple.hinge.registry import (
+    DEEP,
+    DEFAULT_BENDING,
+    FOLD_BENDING,
+    HARDENING_BENDING,
+    Fold,
+    build_law,
+)
 from crumple.hinge.stop import Stop
+from crumple.hinge.tube_library.hardening import hardens
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, RectangularTube, Section
@@ -149,7 +157,7 @@ def automatic_type(
     build
         Builds a law by its name.
     """
-    for laws in (FOLD_BENDING[fold] if fold else {}, HARDENING_BENDING, DEFAULT_BENDING):
+    for laws in (_laws_of_fold(section, material, axis, fold), HARDENING_BENDING, DEFAULT_BENDING):
         name = laws.get(section.kind)
         if name is None:
             continue
@@ -160,6 +168,18 @@ def automatic_type(
             continue
         return name
     return EstimatedLaw.name
+
+
+def _laws_of_fold(section: Section, material: Material, axis: Axis, fold: Fold | None) -> Mapping[str, str]:
+    """Laws that go before the formula in a fold, by the kind of section."""
+    if fold is None or (fold == "clamped" and not hardens(material) and _is_wide(section, axis)):
+        return {}
+    return FOLD_BENDING[fold]
+
+
+def _is_wide(section: Section, axis: Axis) -> bool:
+    flange, depth = section.flange_width(axis), section.bending_depth(axis)
+    return isinstance(section, RectangularTube) and flange > DEEP * depth
 
 
 def _tube_around(section: Section, material: Material, axis: Axis) -> KecmanLaw | None:

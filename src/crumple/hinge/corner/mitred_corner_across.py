@@ -3,27 +3,27 @@
 By mirror symmetry about the plane of the mitre the principal directions of a corner are its bisector and the
 tangent across it. With the angle alpha between the members, s = sin(alpha/2) and c = cos(alpha/2), a moment M
 along the bisector bends each member by c M and twists it by s M, one along the tangent by s M and c M. The
-members carry this up to a quadratic interaction of their torque T(theta) and bending moment B(theta). At the
-mitre a torque about the bisector cannot be carried by the flanges, whose shear there is zero by symmetry.
-So half of it distorts the section: frames of the walls bend (sigma_y t^2 a length and angle of distortion),
-and over the length that this takes the walls bend in their planes (sigma_y t a^2/4 each). The length that
+members carry this up to a quadratic interaction of their torque T and bending moment B. At the mitre a torque
+about the bisector cannot be carried by the flanges, whose shear there is zero by symmetry.  So half of it
+distorts the section: frames of the walls bend (sigma_y t^2 a length and angle of distortion), and over the
+length that this takes the walls bend in their planes (sigma_y t a^2/4 each). The length l = a sqrt(a/t) that
 makes the work smallest gives a torque of 2 sigma_y (a t)^(3/2), with the mean a = sqrt(b h) of the mid-lines;
-shells say k in place of 2:
+shells say k (20 t/a)^e in place of 2, and less at first:
 
-    bisector   1/M^2 = (s/D)^2 + (s/T)^2 + (c/B)^2,    D = k sigma_y (a t)^(3/2)
-               T = T_p min(1, theta_1/theta)^m,  T_p = 2 b h t sigma_y/sqrt(3),  theta_1 = r (t/max(b, h))^2
-    tangent    1/M_0^2 = (c/T_p)^2 + (s/B_0)^2
+    bisector   1/M^2 = (s/D)^2 + (s/T)^2 + (c/B)^2,   T = 2 b h t sigma_y/sqrt(3)
+               D = k (20 t/a)^e sigma_y (a t)^(3/2) (1 - (1 - g) exp(-theta/theta_2))
+    tangent    1/M_0^2 = (c/T)^2 + (s/B_0)^2
                M = M_0 (f + (1 - f) min(1, theta_c/theta)),    theta_c = q_t (t/a)^2 (1 + w (s_f/sigma_y - 1))
 
 B is the straight tube's moment (Kecman), B_0 that at the start. About the tangent walls fold from the
 rotation theta_c on, as if the work of a fold were spent; metals that harden, with the flow stress s_f, spread
 the twist over a longer piece and fold later. Elastic stiffness of the corner's own about the bisector:
-K = q E t^2 a cot^2(alpha/2). Limits: alpha -> 0 gives the member in bending and in torsion; thin walls give
-s M = D about the bisector.
+K = q E t^(5/2) a^(1/2) cot(alpha/2)^p. Limits: alpha -> 0 gives the member in bending and in torsion; thin
+walls give s M = D about the bisector.
 
 Round tubes of the mean radius R distort like a square tube of the same mid-line, a = pi R/2 (quarters of the
-ring in place of walls), with the same k and w. Their torque is T_p = 2 pi R^2 t sigma_y/sqrt(3), constant
-about the bisector, f = 0, B is the law of their free fold, and
+ring in place of walls), with the same w. Their torque is T = 2 pi R^2 t sigma_y/sqrt(3), f = 0, B is the law
+of their free fold, and
 
     D = k sigma_y (a t)^(3/2) (1 - (1 - g (t/R)^(1/3)) exp(-theta/theta_2)),    K = q E t^2 R/(s^2 c)
 """
@@ -62,22 +62,28 @@ SOURCE = Source(
     "derived here, with constants fitted to corners solved by shells; a law from shells "
     "(crumple characterise --load out-of-plane) replaces it",
 )
-DISTORTION = 1.75
-"""k of the torque that distorts the section at the mitre [-]."""
-FALL, TURN = 0.5, 47.0
-"""m [-] and r [rad] of the fall of the torque of rectangular tubes about the bisector."""
+DISTORTION, ROUND_DISTORTION = 1.54, 1.75
+"""k of the torque that distorts the section at the mitre, of rectangular and of round tubes [-]."""
+SLENDER = 0.22
+"""e, how the torque of rectangular tubes depends on their slenderness [-]."""
+USUAL = 20.0
+"""Slenderness a/t at which e has no effect [-]."""
 FOLDS, ROUND_FOLDS = 62.0, 85.0
 """q_t of the rotation from which walls fold about the tangent, of rectangular and of round tubes [rad]."""
 REST = 0.12
 """f, share of the moment about the tangent that folded walls of rectangular tubes keep [-]."""
+ANGLE = 1.4
+"""p of the cotangent in the stiffness of rectangular tubes [-]."""
 LATER = 1.5
 """w, how much later walls that harden fold [-]."""
-STIFFNESS, ROUND_STIFFNESS = 0.67, 0.51
+STIFFNESS, ROUND_STIFFNESS = 2.4, 0.51
 """q of the elastic stiffness of rectangular and of round tubes [-]."""
 HARDENING = 4.0
 """Length of the piece that hardens as a corner about its tangent over the largest side of the section [-]."""
-EARLY, SETTLED = 1.30, 0.039
-"""g [-] and theta_2 [rad]: how a round tube begins to distort."""
+EARLY, ROUND_EARLY = 0.55, 1.30
+"""g, how tubes begin to distort about the bisector [-]."""
+SETTLED, ROUND_SETTLED = 0.011, 0.039
+"""theta_2, rotation over which they begin to [rad]."""
 REACH = math.radians(30.0)
 """Rotation up to which the corners were solved by shells."""
 UNCERTAINTY, ROUND_UNCERTAINTY = 0.25, 0.20
@@ -101,14 +107,14 @@ class MitredCornerAcrossLaw:
         Direction of the moment.
     slope
         s, sine of half the angle between the members [-].
-    torque, falling, fall
-        Plastic torque of the members [N m]; about the bisector the rotation from which it falls [rad],
-        and m of its fall [-].
+    torque
+        Plastic torque of the members [N m].
     folding, rest
         About the tangent the rotation from which walls fold [rad], and the share of the moment that
         stays [-].
-    distortion, early
-        D, torque that distorts the section at the mitre [N m], and the share of it at the start [-].
+    distortion, early, settled
+        D, torque that distorts the section at the mitre [N m], the share of it at the start [-], and the
+        rotation over which it grows [rad].
     tube
         Law of the straight member in bending about its axis in the corner's plane.
     elastic_stiffness
@@ -131,12 +137,11 @@ class MitredCornerAcrossLaw:
     about: About
     slope: float
     torque: float
-    falling: float
-    fall: float
     folding: float
     rest: float
     distortion: float
     early: float
+    settled: float
     tube: HingeLaw
     elastic_stiffness: float | None
     validity: Validity
@@ -186,34 +191,34 @@ class MitredCornerAcrossLaw:
         yielding = at_yield(material)
         if isinstance(section, CircularTube):
             radius = (section.diameter - wall) / 2.0
-            enclosed, mean = math.pi * radius**2, math.pi * radius / 2.0
-            falling, fall, folds, rest = math.inf, 0.0, ROUND_FOLDS, 0.0
-            early = min(1.0, EARLY * (wall / radius) ** (1.0 / 3.0))
+            enclosed, mean, factor = math.pi * radius**2, math.pi * radius / 2.0, ROUND_DISTORTION
+            folds, rest = ROUND_FOLDS, 0.0
+            early, settled = min(1.0, ROUND_EARLY * (wall / radius) ** (1.0 / 3.0)), ROUND_SETTLED
             tube = build_law(automatic_type(section, yielding, axis, "free"), section, yielding, axis)
-            shape = ROUND_STIFFNESS * radius / (s**2 * math.sqrt(1.0 - s**2))
+            stiffness = ROUND_STIFFNESS * wall**2 * radius / (s**2 * math.sqrt(1.0 - s**2))
             warnings, band = slender_trust(section, ROUND_UNCERTAINTY)
         else:
             width, depth = section.width - wall, section.depth - wall
             enclosed, mean = width * depth, math.sqrt(width * depth)
-            falling, fall, early = TURN * (wall / max(width, depth)) ** 2, FALL, 1.0
+            factor = DISTORTION * (USUAL * wall / mean) ** SLENDER
             folds, rest = FOLDS, REST
+            early, settled = EARLY, SETTLED
             tube = KecmanLaw.of(section, yielding, axis, after_jamming="hold")
-            shape = STIFFNESS * mean / math.tan(angle / 2.0) ** 2
+            stiffness = STIFFNESS * wall**2.5 * math.sqrt(mean) / math.tan(angle / 2.0) ** ANGLE
             warnings, band = (), UNCERTAINTY
         return cls(
             direction,
             s,
             2.0 * enclosed * wall * stress / math.sqrt(3.0),
-            falling,
-            fall,
             folds * (wall / mean) ** 2 * _later(material),
             rest,
-            DISTORTION * stress * (mean * wall) ** 1.5,
+            factor * stress * (mean * wall) ** 1.5,
             early,
+            settled,
             tube,
-            material.youngs_modulus * wall**2 * shape if bends else None,
+            material.youngs_modulus * stiffness if bends else None,
             Validity(REACH, "corners of other proportions were solved by shells that far", warnings, band),
-            _twisted(section, material, mean * math.sqrt(mean / wall) if bends else None),
+            _twisted(section, material, distorted_length(section) if bends else None),
         )
 
     @property
@@ -230,9 +235,7 @@ class MitredCornerAcrossLaw:
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
         """Rotations where the slope jumps [rad]."""
-        own = (self.folding,)
-        if self.about is About.BISECTOR:
-            own = (*self.tube.kinks(sense), *((self.falling,) if self.fall else ()))
+        own = self.tube.kinks(sense) if self.about is About.BISECTOR else (self.folding,)
         return tuple(sorted({*own, *self.twisted.kinks(sense)}))
 
     def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
@@ -244,15 +247,27 @@ class MitredCornerAcrossLaw:
             whole = ((along / self.torque) ** 2 + (s / float(self.tube.moment_capacity(0.0))) ** 2) ** -0.5
             left = np.minimum(1.0, self.folding / np.maximum(turned, 1e-300))
             return np.asarray(whole * (self.rest + (1.0 - self.rest) * left) * hardened, np.float64)
-        torque = self.torque * np.minimum(1.0, self.falling / np.maximum(turned, 1e-300)) ** self.fall
         bending = self.tube.moment_capacity(turned, 1)
-        distortion = self.distortion * (1.0 - (1.0 - self.early) * np.exp(-turned / SETTLED))
-        uses = (s / distortion) ** 2 + (s / torque) ** 2 + (along / bending) ** 2
+        distortion = self.distortion * (1.0 - (1.0 - self.early) * np.exp(-turned / self.settled))
+        uses = (s / distortion) ** 2 + (s / self.torque) ** 2 + (along / bending) ** 2
         return np.asarray(uses**-0.5 * hardened, np.float64)
 
     def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
         """Factor on the capacity at a rotation rate [rad/s]."""
         return rate_factor(self.rate, rotation_rate)
+
+
+def distorted_length(section: RectangularTube | CircularTube) -> float:
+    """Length over which a corner that folds about its bisector distorts each of its members, l [m].
+
+    For rectangular tubes that of the mechanism; round ones harden as over the same length.
+    """
+    wall = section.thickness
+    if isinstance(section, CircularTube):
+        mean = math.pi * (section.diameter - wall) / 4.0
+    else:
+        mean = math.sqrt((section.width - wall) * (section.depth - wall))
+    return mean * math.sqrt(mean / wall)
 
 
 def _later(material: Material) -> float:

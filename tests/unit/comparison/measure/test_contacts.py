@@ -10,8 +10,9 @@ from rich.markup import render
 from tests.support.structures import STEEL
 
 from crumple.cli.compare import _contact_lines
-from crumple.comparison.measure.contacts import dissipated_at, hinge_work, impulse
+from crumple.comparison.measure.contacts import dissipated_at, impulse
 from crumple.comparison.measure.decisive import figures_of
+from crumple.comparison.measure.energy import hinge_work
 from crumple.comparison.measure.measures import Measures, measure
 from crumple.multibody import Run, solve_multibody
 from crumple.report.wording.comparison_wording import contact_table

@@ -131,9 +131,9 @@ def across(degrees, about="bisector", tube=TUBE):
 
 
 def test_nearly_in_line_a_corner_bends_about_its_bisector_and_twists_about_its_tangent():
-    at = np.radians([0.0, 5.0, 20.0])
+    at = np.radians([5.0, 10.0, 20.0])
     bent = build_law("kecman", TUBE, STEEL, "z", after_jamming="hold")
-    np.testing.assert_allclose(across(5.0).moment_capacity(at), bent.moment_capacity(at), rtol=0.02)
+    np.testing.assert_allclose(across(5.0).moment_capacity(at), bent.moment_capacity(at), rtol=0.025)
     torque = 2.0 * 0.048**2 * 0.002 * 350e6 / math.sqrt(3.0)
     folding = 62.0 * (0.002 / 0.048) ** 2
     twisted = across(5.0, "tangent").moment_capacity([0.0, folding, 4.0 * folding])
@@ -145,10 +145,17 @@ def test_at_a_right_angle_bending_and_torsion_take_equal_parts_and_the_mitre_is_
     bending = float(build_law("kecman", TUBE, STEEL, "z").moment_capacity(0.0))
     member = math.sqrt(2.0 / (1.0 / torque**2 + 1.0 / bending**2))
     assert float(across(90.0, "tangent").moment_capacity(0.0)) == pytest.approx(member)
-    distortion = 1.75 * 350e6 * (0.048 * 0.002) ** 1.5
-    start = 1.0 / math.sqrt(0.5 / distortion**2 + 1.0 / member**2)
+    distortion = 1.54 * (20.0 * 0.002 / 0.048) ** 0.22 * 350e6 * (0.048 * 0.002) ** 1.5
+    start = 1.0 / math.sqrt(0.5 / (0.55 * distortion) ** 2 + 1.0 / member**2)
     assert float(across(90.0).moment_capacity(0.0, -1)) == pytest.approx(start)
-    assert across(90.0).elastic_stiffness == pytest.approx(0.67 * 210e9 * 0.002**2 * 0.048)
+    # before walls of the straight member fold
+    at = 2.0 * 0.011
+    grown = 1.0 / math.sqrt(0.5 / (distortion * (1.0 - 0.45 * math.exp(-2.0))) ** 2 + 1.0 / member**2)
+    assert float(across(90.0).moment_capacity(at)) == pytest.approx(grown, rel=0.01)
+    assert across(90.0).elastic_stiffness == pytest.approx(2.4 * 210e9 * 0.002**2.5 * 0.048**0.5)
+    assert across(45.0).elastic_stiffness == pytest.approx(
+        across(90.0).elastic_stiffness * math.tan(math.radians(22.5)) ** -1.4
+    )
     assert across(90.0, "tangent").elastic_stiffness is None
     assert across(90.0).source.trust is Trust.FITTED
 

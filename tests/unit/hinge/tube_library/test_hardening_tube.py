@@ -21,6 +21,7 @@ YIELD = Material("steel", 210e9, 0.3, 7850.0, 350e6)
 STEEL = replace(YIELD, hardening=Swift(350e6, 0.01, 0.15))
 TUBE, ROUND = RectangularTube(0.060, 0.045, 0.002), CircularTube(0.060, 0.002)
 THICK = RectangularTube(0.050, 0.050, 0.0035)
+DEEP = RectangularTube(0.040, 0.060, 0.002)
 # between its points a table is straight, and so is the effect of hardening
 AT = np.append(tube_table("rectangular_tube").rotation, 1.0)
 
@@ -76,12 +77,15 @@ def test_the_curve_goes_before_a_flow_stress_that_is_given():
 @pytest.mark.parametrize(
     ("section", "material", "fold", "law"),
     [
-        (TUBE, STEEL, "clamped", "hardening_tube"),
+        (TUBE, STEEL, "clamped", "clamped_tube"),
+        (replace(TUBE, corner_radius=0.003), STEEL, "clamped", "hardening_tube"),
         (TUBE, STEEL, None, "hardening_tube"),
         (TUBE, STEEL, "free", "library"),
         (THICK, STEEL, "free", "hardening_tube"),
         (TUBE, YIELD, "clamped", "kecman"),
         (TUBE, replace(YIELD, given_flow_stress=450e6), "clamped", "kecman"),
+        (DEEP, YIELD, "clamped", "clamped_tube"),
+        (replace(DEEP, width=0.92 * DEEP.depth), YIELD, "clamped", "kecman"),
         (ROUND, STEEL, "clamped", "clamped_tube"),
         (ROUND, STEEL, None, "hardening_tube"),
         (written_section("channel 60x40x2 mm"), STEEL, None, "folded_profile"),

@@ -1,0 +1,94 @@
+"""Where corners out of their plane do their work: along the members that they distort."""
+
+import math
+
+import numpy as np
+import pytest
+
+from crumple.analysis import loads, solve
+from crumple.comparison import with_frames
+from crumple.comparison.measure.energy import distortions, hinge_work
+from crumple.comparison.measure.measures import measure
+from crumple.structure import with_elastic_members
+
+TEXT = """crumple: 1
+title: L
+materials:
+  steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa}
+sections:
+  tube: {type: TUBE}
+nodes: {foot: [0 m, 0 m, 0 m], corner: [0 m, 0 m, 0.15 m], tip: [0.5 m, 0 m, 0.15 m]}
+members:
+  post: {nodes: [foot, corner], section: tube, material: steel}
+  arm: {nodes: [corner, tip], section: tube, material: steel}
+hinges: auto
+supports: {foot: {node: foot, fix: all}}
+masses: {payload: {node: tip, mass: 10 kg}}
+initial_velocity: [{nodes: [tip], translation: [0 m/s, 8 m/s, 0 m/s]}]
+analysis: {duration: 15 ms}
+outputs: {every: 0.2 ms, nodes: [tip]}
+"""
+RECTANGULAR = "rectangular_tube, width: 50 mm, depth: 50 mm, thickness: 2 mm"
+# sqrt(a/t) times a, of the mid-lines
+LENGTH = 0.048 * math.sqrt(24.0)
+
+
+def solved(tube):
+    analysis = loads(TEXT.replace("TUBE", tube), file="l.yaml", directory=".")
+    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    return structure, solve(with_frames(analysis))
+
+
+@pytest.fixture(scope="module", name="corner")
+def _corner():
+    return solved(RECTANGULAR)
+
+
+def test_two_fifths_of_the_work_about_the_bisector_are_done_along_both_members_alike(corner):
+    structure, result = corner
+    moves = list(distortions(result, structure))
+    assert {node for node, _ in moves} == {"corner"}
+    totals = {m: sum(work[2] for _, work in moves if work[0] == m) for m in ("post", "arm")}
+    assert totals["post"] == pytest.approx(totals["arm"])
+    turned, moment = (result[f"hinge.corner-corner.{one}.z"] for one in ("plastic_rotation", "moment"))
+    about_bisector = float(np.trapezoid(moment, turned))
+    # it turns mostly about its bisector, by some degrees
+    assert about_bisector > 0.6 * result["hinge.corner-corner.energy"][-1] > 20.0
+    assert sum(totals.values()) == pytest.approx(0.4 * about_bisector, rel=0.1)
+
+
+def test_the_work_falls_linearly_to_zero_or_to_the_end_of_a_short_member(corner):
+    structure, result = corner
+    works = {name: [w for _, w in distortions(result, structure) if w[0] == name] for name in ("post", "arm")}
+    away = {
+        "post": 0.15 - np.array([at for _, at, _ in works["post"]]),
+        "arm": np.array([at for _, at, _ in works["arm"]]),
+    }
+    assert LENGTH * 0.9 < away["arm"].max() < LENGTH
+    assert 0.9 * 0.15 < away["post"].max() < 0.15
+    for name, places in away.items():
+        energies = np.array([energy for *_, energy in works[name]])
+        np.testing.assert_allclose(energies / energies[0], (LENGTH - places) / (LENGTH - places[0]))
+
+
+def test_zones_have_it_and_the_sum_stays(corner):
+    structure, result = corner
+    zones = measure(result, structure).zones
+    assert sum(zones.values()) == pytest.approx(result["energy.dissipated"][-1], rel=1e-6)
+
+    def between(works):
+        # the zones of corner and tip end two sides of the mid-line from them
+        return sum(energy for name, at, energy in works if name == "arm" and 0.096 < at < 0.404)
+
+    distorting, yielding = (
+        between(one for _, one in distortions(result, structure)),
+        hinge_work(result, structure),
+    )
+    assert distorting > 1.0
+    assert zones["span of arm"] == pytest.approx(distorting + between(yielding))
+
+
+def test_round_tubes_keep_their_work_at_the_corner():
+    structure, result = solved("circular_tube, diameter: 50 mm, thickness: 2 mm")
+    assert result["hinge.corner-corner.energy"][-1] > 20.0
+    assert list(distortions(result, structure)) == []
