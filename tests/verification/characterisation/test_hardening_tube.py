@@ -68,7 +68,6 @@ def test_a_clamped_tube_moves_as_in_shells(name, record_figure):
 
 METALS = {
     "voce": Material("voce", 210e9, 0.3, 7850.0, 300e6, hardening=Voce(300e6, 150e6, 0.04)),
-    "hard": Material("hard", 210e9, 0.3, 7850.0, 350e6, hardening=Swift(350e6, 0.006, 0.14)),
     "soft": Material("soft", 210e9, 0.3, 7850.0, 300e6, hardening=Swift(300e6, 0.01, 0.18)),
     "softer": Material("softer", 210e9, 0.3, 7850.0, 280e6, hardening=Swift(280e6, 0.01, 0.18)),
 }

@@ -70,14 +70,14 @@ def _about_bisector(result: Result, structure: Structure, hinge: PlacedHinge, co
         return 0.0
     works = {}
     for axis in "xyz":
-        turned, moment = (
-            result[f"hinge.{hinge.name}.{one}.{axis}"] for one in ("plastic_rotation", "moment")
-        )
-        works[axis] = max(0.0, float(np.diff(turned) @ (moment[1:] + moment[:-1])))
+        turned, moment = (f"hinge.{hinge.name}.{one}.{axis}" for one in ("plastic_rotation", "moment"))
+        # a hinge that slips in its plane turns about one axis
+        if turned in result.channels:
+            means = result[moment][1:] + result[moment][:-1]
+            works[axis] = max(0.0, float(np.diff(result[turned]) @ means))
     total = sum(works.values())
-    return (
-        float(result[f"hinge.{hinge.name}.energy"][-1]) * works[corner.across] / total if total > 0.0 else 0.0
-    )
+    share = works.get(corner.across, 0.0) / total if total > 0.0 else 0.0
+    return share * float(result[f"hinge.{hinge.name}.energy"][-1])
 
 
 def _distorting(structure: Structure, node: str, member: str, energy: float) -> Iterator[Work]:

@@ -92,3 +92,14 @@ def test_round_tubes_keep_their_work_at_the_corner():
     structure, result = solved("circular_tube, diameter: 50 mm, thickness: 2 mm")
     assert result["hinge.corner-corner.energy"][-1] > 20.0
     assert list(distortions(result, structure)) == []
+
+
+def test_a_corner_that_slips_in_its_plane_turns_about_one_axis_and_distorts_nothing():
+    text = TEXT.replace("TUBE", RECTANGULAR).replace("[0 m/s, 8 m/s, 0 m/s]", "[-2 m/s, 0 m/s, -2 m/s]")
+    slips = text.replace("hinges: auto", "hinges: {axial: true}")
+    analysis = loads(slips, file="l.yaml", directory=".")
+    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    result = solve(with_frames(analysis))
+    assert "hinge.corner-corner.slip.x.force" in result.channels
+    assert "hinge.corner-corner.moment.x" not in result.channels
+    assert list(distortions(result, structure)) == []
