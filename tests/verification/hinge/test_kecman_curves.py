@@ -123,7 +123,7 @@ def test_energy_beside_finite_elements(record_figure):
 
 
 def test_library_of_tubes_beside_solid_elements():
-    """Shells, and so the library, are 5 to 9 % below solids at this thick tube; the band holds that."""
+    """Shells, and so the library, are 8 to 12 % below solids at this thick tube; the band holds that."""
     found = build_law("library", TUBE, STEEL, AXES["flat"])
     for degrees, (elements, *_) in FINITE_ELEMENTS.items():
         error = absorbed_energy(found, np.radians(degrees)) / elements - 1
@@ -136,9 +136,9 @@ def test_claimed_band_holds_the_finite_element_moments():
         abs(float(curve.moment_capacity(np.radians(degrees))) / moment - 1)
         for degrees, moment in FINITE_ELEMENT_MOMENTS.items()
     )
-    # solid elements to 42 deg are 20 % below; the library of tubes widens the band a little
+    # solid elements to 42 deg are 20 % below; the library of tubes widens the band by half
     assert worst == pytest.approx(0.20, abs=0.01)
-    assert worst <= curve.validity.uncertainty <= worst + 0.05
+    assert worst <= curve.validity.uncertainty <= worst + 0.10
     assert curve.validity.rotation_max == pytest.approx(np.radians(42.0))
     # the other way up nothing was compared, so no band is claimed
     assert law("upright").validity.uncertainty is None

@@ -105,5 +105,5 @@ def test_a_corner_struck_across_its_plane_also_closes(members):
     corner = corner_hinge(framed(members=members))[2]
     turned = np.array([result[f"node.tip.rotation.{axis}"][-1] for axis in "xyz"])
     # a rotation of the arm about this normal increases the angle between the members; -8 deg without shift
-    assert math.degrees(turned @ np.array(corner.normal)) > 2.0
+    assert math.degrees(turned @ np.array(corner.normal)) > 1.0
     assert abs(result.energy_residual) < 1e-4

@@ -115,7 +115,8 @@ def test_in_space_the_corner_law_acts_in_its_plane_and_estimates_out_of_it(tmp_p
     corner = next(h for h in placed_hinges(whole) if h.name == "corner-b")
     moments = {c.freedom.name: float(c.record.positive.moment[0]) for c in corner.spatial.components}
     assert moments["Y"] in (CLOSING, OPENING)
-    assert 700.0 < moments["Z"] < 1000.0
+    # what distorts the section is at the start 0.55 of what it becomes
+    assert 450.0 < moments["Z"] < 550.0
     assert all(c.record.form.value == "set-valued" for c in corner.spatial.components)
 
 
