@@ -5,8 +5,8 @@ to: a portal of tubes 60x60x2.5 mm (300 MPa, posts 0.6 m, beam 0.8 m, 60 kg on b
 at 7 m/s) and a cantilever of tube 40x60x2 mm (350 MPa, 0.45 and 0.5 m) that is bent by 50 degrees, with 15 kg
 at its corner, and 12 kg at its tip, thrown at 12 m/s across its arm. Shells with 4.3 and 3.6 elements along
 half a fold: displacements [m], and rotations of joints between the borders of zones [rad]. Tolerances: the
-targets of the concordance, 10 %, and 15 % or 2 degrees. With the law of a plain mitre the portal moves 28 % too
-far, and the corner of the cantilever turns by 2.4 times as much as in shells.
+targets of the concordance, 10 %, and 15 % or 2 degrees. With the law of a plain mitre the portal moves
+28 % too far, and the corner of the cantilever turns by 2.4 times as much as in shells.
 
 Kind: independent calculation.  Source: derived here.
 """
