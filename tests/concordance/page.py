@@ -36,7 +36,7 @@ HEADS = {
     "drawn later": """## Frames drawn later
 
 Drawn by a program and solved by shells once, with 4.6 elements or more along half a fold. Their shells have
-no spread, so the targets alone decide. They are only counted: nobody has looked at a single one of them.
+no spread, so the targets alone decide. They are only counted: no model was changed because of one of them.
 """,
     "drawn": """## Drawn frames
 

@@ -14,7 +14,8 @@ from crumple.version import __version__
 
 CORNER_METHOD = 5
 """Number of the way in which sub-models of corners are built and measured; before 4 the pieces of deep
-sections at steep angles were too short for a mitre."""
+sections at steep angles were too short for a mitre, and before 5 those of rectangular tubes about their
+bisector for what the corner distorts."""
 CITATION = "shell sub-model, docs/theory/characterisation.md"
 
 

@@ -13,7 +13,7 @@ from crumple.errors import InputError
 from crumple.hinge.measured.library import by_place, is_of_joint, read_store
 from crumple.hinge.measured.place_hash import place_hash
 from crumple.material import Material
-from crumple.section import RectangularTube, plastic_interaction
+from crumple.section import CircularTube, RectangularTube, plastic_interaction
 from crumple.section.shapes.hat import Hat
 
 STEEL = Material("steel", 210e9, 0.3, 7850.0, 488e6)
@@ -54,6 +54,16 @@ def test_the_moment_is_in_the_plane_and_along_a_line_of_symmetry(axis, degrees, 
     half = math.radians(degrees / 2.0)
     part = math.cos(half) if about == "tangent" else math.sin(half)
     assert abs(after @ driven) == pytest.approx(part)
+
+
+def test_about_the_bisector_pieces_are_longer_than_what_the_corner_distorts():
+    """By 1.4 times the length a sqrt(a/t) of rectangular tubes; others have 2.75 sides."""
+    thin, ring = RectangularTube(0.050, 0.050, 0.002), CircularTube(0.050, 0.002)
+    distorted = 1.4 * 0.048 * math.sqrt(24.0)
+    assert OutOfPlane(thin, STEEL).piece == pytest.approx(distorted)
+    assert OutOfPlane(thin, STEEL, length_factor=2.0).piece == pytest.approx(2.0 * distorted)
+    for other in (OutOfPlane(thin, STEEL, about="tangent"), OutOfPlane(ring, STEEL)):
+        assert 2.75 * 0.048 <= other.piece < 0.8 * distorted
 
 
 def test_the_pieces_yield_in_torsion_and_bending():

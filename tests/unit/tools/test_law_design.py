@@ -1,8 +1,8 @@
 """Design of the library of tubes: the shipped tables contain its points, and no held-out tube is fitted."""
 
 import pytest
-from tools.law_clamped import design
-from tools.law_design import LEAST_HARDENED, NOMINAL, TRAINING, points
+from tools.law_clamped import design, fold_rotation
+from tools.law_design import COARSE, LEAST_HARDENED, NOMINAL, TRAINING, points
 from tools.law_library import HELD_OUT, NOMINAL_ROLES, PLACE, ROLES
 
 from crumple.hinge.tube_library.clamped import TABLES
@@ -52,3 +52,22 @@ def test_hardened_round_tubes_have_their_hardening_on_the_nominal_mesh():
     hardened = [one for one in points() if one.role == "hardened"]
     assert {one.kind for one in hardened} == {"circular_tube"}
     assert all(one.hardening >= LEAST_HARDENED and one.elements == NOMINAL for one in hardened)
+
+
+def test_strong_points_reach_beyond_the_others():
+    strong = [one for one in points() if one.role == "strong"]
+    others = [one for one in points() if one.role not in {"strong", "held-out"}]
+    assert {one.kind for one in strong} == set(KINDS)
+    assert all(one.elements == COARSE and 1.7 <= one.hardening <= 2.4 for one in strong)
+    assert max(one.hardening for one in others) <= 1.8
+    assert min(one.slenderness for one in strong) < 12.1 < 15.0 <= min(one.slenderness for one in others)
+
+
+def test_from_its_largest_moment_on_a_cantilever_folds_by_as_much_as_its_tip_turns():
+    """Before, the gauge beside the clamp turns by less than the tip: the member yields beyond it, too."""
+    own = {
+        "fold": [0.0, 0.01, 0.02, 0.021, 0.022],
+        "tip": [0.0, 0.02, 0.05, 0.15, 0.25],
+        "moment": [0.9, 1.0, 1.2, 0.8, 0.5],
+    }
+    assert fold_rotation(own).tolist() == pytest.approx([0.0, 0.01, 0.02, 0.12, 0.22])

@@ -10,7 +10,8 @@ to it at most, unless a fold at the node needs more: a border in the fold then l
   relative to the ring in the first one, or to the ground where a support holds the node's rotation; of a
   span: between the rings at its two borders.  Rings are fitted with a rigid rotation (Kabsch 1976), so that
   twist is seen too.
-- Energy by zone: plastic work of the wall elements in it, or the energy of the hinges in it.
+- Energy by zone: plastic work of the wall elements in it, or the energy of the hinges in it; what hinges
+  stand for along members counts there (energy.py).
 - Force of each obstacle: largest magnitude through CFC 60, and impulse over the time until rest.
 - Impulse of each obstacle, and energy dissipated at its contacts: see contacts.py.
 - Time of rest: when 95 % of the energy that is dissipated in the end has been dissipated.
