@@ -120,19 +120,21 @@ SpatialHinge make_hinge(const nb::dict& d) {
     SpatialHinge h;
     const int form = entry<int>(d, "form"), softening = entry<int>(d, "softening");
     int slips = 0, turns = 0;
-    bool shifts = false;
+    bool driven = false;
     for (nb::handle item : entry<nb::list>(d, "components")) {
         const auto c = as<nb::dict>(item, "a component of a hinge");
         h.components.push_back({entry<int>(c, "freedom"),
                                 hinge::make_hinge(c, static_cast<Form>(form), static_cast<Softening>(softening)),
                                 make_shares(entry<Doubles>(c, "shift_rotation"), entry<Doubles>(c, "shift_share"), 1,
                                             "shares of a shift are below 1, at increasing rotations"),
-                                entry<int>(c, "shift_like")});
+                                make_shares(entry<Doubles>(c, "worn_rotation"), entry<Doubles>(c, "worn_share"), 1,
+                                            "shares of a capacity that is gone are below 1, at increasing rotations"),
+                                entry<int>(c, "driver")});
         const Component& last = h.components.back();
         require(last.freedom >= 0 && last.freedom < 6, "a freedom is one of six");
         require(form != 1 || (last.law.stiffness > 0 && std::isfinite(last.law.stiffness)), "an elastic hinge needs a stiffness");
         (last.freedom < 3 ? slips : turns)++;
-        shifts = shifts || !last.shift.values().empty();
+        driven = driven || last.driver >= 0;
     }
     require(size(h) >= 1 && size(h) <= most_components, "a hinge has one to four components");
     h.surface = make_surface(d, size(h));
@@ -142,9 +144,11 @@ SpatialHinge make_hinge(const nb::dict& d) {
     std::copy(loss.begin(), loss.end(), h.shear_loss);
     h.round_shear = entry<bool>(d, "round_shear");
     for (const Component& c : h.components) {
-        require(c.like < size(h) && (c.like >= 0 || c.shift.values().empty()), "a component with a shift is like another one of its hinge");
+        const bool drives = !c.shift.values().empty() || !c.worn.values().empty();
+        require(c.driver < size(h) && (c.driver >= 0) == drives, "a share depends on the rotation about a component of its hinge");
+        for (const double share : c.worn.values()) require(share >= 0, "no capacity is gained");
     }
-    require(!shifts || (h.surface.coupling == Coupling::ellipsoid && form != 2), "only an ellipsoid that is not regularised has a shift");
+    require(!driven || (h.surface.coupling == Coupling::ellipsoid && form != 2), "only an ellipsoid that is not regularised has shares that depend on a rotation");
     require(h.surface.coupling != Coupling::ball || slips == 0, "a ball hinge has rotations only");
     require(h.surface.coupling != Coupling::tension_flange || (slips == 1 && turns == 1 && form != 2 && h.surface.arm > 0),
             "a hinge about its tension flange has one slip and one rotation, an arm, and is not regularised");

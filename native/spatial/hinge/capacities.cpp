@@ -17,17 +17,17 @@ constexpr double farthest = 0.9;
 // Share of the torque that shear forces leave at least: those above what the walls carry are of vibration.
 constexpr double least_torque = 0.1;
 
-bool shifts(const SpatialHinge& hinge) {
+bool driven(const SpatialHinge& hinge) {
     for (const Component& c : hinge.components) {
-        if (!c.shift.values().empty()) return true;
+        if (c.driver >= 0) return true;
     }
     return false;
 }
 
 // Softening measure per rotation about an axis alone: the initial capacity, along which the centre moves that of another component.
 double weight_of(const SpatialHinge& hinge, int k, int sense) {
-    const int like = hinge.components[static_cast<size_t>(k)].like;
-    return first_capacity(hinge, like < 0 ? k : like, sense);
+    const Component& c = hinge.components[static_cast<size_t>(k)];
+    return first_capacity(hinge, c.shift.values().empty() ? k : c.driver, sense);
 }
 
 // Work D_0(e) of a proportional rotation by e at the initial capacities, and the point of the surface where it is found.  `guess`: such a
@@ -72,7 +72,7 @@ SurfacePoint measure_after(const SpatialHinge& hinge, const SpatialHingeState& s
 double measure(const SpatialHinge& hinge, const double* e) { return measure_from(hinge, e, nullptr).value; }
 
 bool softens(const SpatialHinge& hinge) {
-    if (shifts(hinge)) return true;
+    if (driven(hinge)) return true;
     for (const Component& c : hinge.components) {
         for (const hinge::Curve* curve : {&c.law.positive, &c.law.negative}) {
             for (const double value : curve->values()) {
@@ -133,11 +133,13 @@ void mean_capacities(const SpatialHinge& hinge, const SpatialHingeState& s, cons
             f.component[k].capacity[sense] = law_of(hinge, k).scale * (at_end ? ahead : held * here + (1 - held) * ahead);
         }
         const Component& c = hinge.components[static_cast<size_t>(k)];
-        if (c.shift.values().empty()) continue;
-        const hinge::HingeState& driver = s.component[c.like];
-        const double so_far = std::max(driver.peak[0], driver.peak[1]);
+        if (c.driver < 0) continue;
+        const hinge::HingeState& driver = s.component[c.driver];
+        const double so_far = std::max(driver.peak[0], driver.peak[1]), ahead = std::max(so_far, std::fabs(end[c.driver]));
         int hint = 0;
-        f.shift[k] = capacity_over(c.shift, so_far, std::max(so_far, std::fabs(end[c.like])), at_end, hint);
+        if (!c.shift.values().empty()) f.shift[k] = capacity_over(c.shift, so_far, ahead, at_end, hint);
+        if (c.worn.values().empty()) continue;
+        for (double& capacity : f.component[k].capacity) capacity *= 1 - capacity_over(c.worn, so_far, ahead, at_end, hint);
     }
 }
 

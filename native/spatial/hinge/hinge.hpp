@@ -35,10 +35,11 @@ using hinge::Softening;
 struct Component {
     int freedom = 4;
     hinge::Hinge law;
-    // Share by which the centre of the set has moved along the component, over the largest rotation so far about the component `like` (no
-    // points: no shift).  The initial capacity of that one is also the weight of this one in the measure of softening; -1: its own.
-    hinge::Curve shift;
-    int like = -1;
+    // Over the largest rotation so far about the component `driver` (no points: none): share by which the centre of the set has moved along
+    // this one, and share of its capacity that is gone.  With a shift the initial capacity of the driver is also the weight of this one in the
+    // measure of softening.
+    hinge::Curve shift, worn;
+    int driver = -1;
 };
 
 // Parameters of one hinge.  All components have the form and softening of the first one.

@@ -41,7 +41,9 @@ def component(freedom, positive, negative=None, **more):
         "stop_negative": [],
         "shift_rotation": [],
         "shift_share": [],
-        "shift_like": -1,
+        "worn_rotation": [],
+        "worn_share": [],
+        "driver": -1,
     } | more
 
 

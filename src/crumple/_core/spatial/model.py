@@ -118,23 +118,26 @@ def planar(first: int, second: int, position: ArrayLike, normal: ArrayLike) -> S
 class SpatialComponent(HingeConstants):
     """One component of a hinge: a relative freedom of its joint, and its resistance.
 
-    `shift` (rotation, share): where the centre of the set lies along it, over the largest rotation about the
-    component `shift_like`, whose initial capacity is its weight in the measure of softening; empty and -1:
-    without a shift.
+    Over the largest rotation about the component `driver` (rotation, share; empty and -1: none): `shift`,
+    where the centre of the set lies along it (the initial capacity of the driver is then its weight in the
+    measure of softening), and `worn`, what is gone of its capacity.
     """
 
     freedom: int
     shift: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
-    shift_like: int = -1
+    worn: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
+    driver: int = -1
 
     def component(self) -> dict[str, Any]:
         """The constants and the freedom in the form that the kernel takes."""
-        rotation, share = self.shift
+        (rotation, share), (worn_rotation, worn_share) = self.shift, self.worn
         return self.constants() | {
             "freedom": self.freedom,
             "shift_rotation": as_list(rotation),
             "shift_share": as_list(share),
-            "shift_like": self.shift_like,
+            "worn_rotation": as_list(worn_rotation),
+            "worn_share": as_list(worn_share),
+            "driver": self.driver,
         }
 
 

@@ -1,4 +1,4 @@
-"""Shift of the yield set of a mitred corner of two tubes, in the sense in which the corner opens.
+"""Yield set of a mitred corner of two tubes that folds about its bisector: its shift, and what it loses.
 
 Shells that turn a corner about a moment between its bisector and the normal of its plane carry more if it
 opens and less if it closes, and close a corner that is turned about its bisector alone. With the moments M_n
@@ -11,7 +11,10 @@ bisector, and vanishes for members in line, where both senses are alike:
 
     share = g sin(alpha) (1 - exp(-theta/theta_1)),    theta_1 = r t/a,    a = sqrt(b h)
 
-and for round tubes a = pi R/2, as for the distortion of their rings.
+and for round tubes a = pi R/2, as for the distortion of their rings. A corner that has folded about its
+bisector also carries less about its tangent than one that turns about that alone, T = (1 - worn) T_0 with
+
+    worn = w (1 - exp(-theta/theta_w))
 """
 
 from __future__ import annotations
@@ -30,6 +33,10 @@ SHARE = 0.63
 """g, share of the shift of a right-angled corner that has folded far [-]."""
 TURN = 3.2
 """r, rotation over which the shift grows, times the slenderness of the walls [rad]."""
+WORN = 0.2
+"""w, share of the moment about the tangent that a fold about the bisector takes [-]."""
+WEARS = 0.03
+"""theta_w, rotation about the bisector over which it takes that [rad]."""
 
 
 def corner_shift(section: Section, angle: float) -> Callable[[ArrayLike], Floats] | None:
@@ -63,3 +70,19 @@ def corner_shift(section: Section, angle: float) -> Callable[[ArrayLike], Floats
     turn = TURN * wall / mean
     largest = SHARE * math.sin(angle)
     return lambda rotation: np.asarray(largest * (1.0 - np.exp(-np.asarray(rotation, float) / turn)))
+
+
+def worn_by_bisector(rotation: ArrayLike) -> Floats:
+    """Share of the moment about the tangent that is gone after rotations about the bisector [-].
+
+    Parameters
+    ----------
+    rotation
+        Largest one so far, >= 0 [rad], of any shape.
+
+    References
+    ----------
+    docs/theory/mitred_corner.md.  Derived here; constants fitted to corners solved by shells.  Verified in
+    tests/verification/characterisation/test_corners_turned_oblique.py.
+    """
+    return np.asarray(WORN * (1.0 - np.exp(-np.asarray(rotation, float) / WEARS)))

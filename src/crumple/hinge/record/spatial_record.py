@@ -47,23 +47,22 @@ class Coupling(Enum):
 
 
 @dataclass(frozen=True)
-class Shift:
-    """Centre of an ellipsoid along a component; piecewise linear, constant beyond its last point.
+class DrivenShare:
+    """Share that depends on the rotation about another component; piecewise linear, then constant.
 
     Attributes
     ----------
     rotation
-        Largest plastic rotation so far about `like` [rad], strictly increasing, shape (n,).
+        Largest plastic rotation so far about `driver` [rad], strictly increasing, shape (n,).
     share
-        Centre over the half axis of the sense from which it moves away, between -1 and 1 [-], shape (n,).
-    like
-        Freedom on whose rotation the shift depends; rotations along the shift soften the hinge as those
-        about it.
+        Between -1 and 1 [-], shape (n,).
+    driver
+        Freedom on whose rotation the share depends.
     """
 
     rotation: Floats
     share: Floats
-    like: Freedom
+    driver: Freedom
 
 
 @dataclass(frozen=True)
@@ -78,13 +77,17 @@ class HingeComponent:
         As of a planar hinge; for the axial freedom lengths [m] stand for rotations and forces [N] for
         moments, and the negative sense is shortening.
     shift
-        Of a set whose centre moves along this axis: where it is; the record keeps the capacities about the
-        axis alone.
+        Of an ellipsoid whose centre moves along this axis: centre over the half axis of the sense from which
+        it moves away; the record keeps the capacities about the axis alone. Rotations along it soften the
+        hinge as those about the driver.
+    worn
+        Of an ellipsoid: share of the capacity about this axis that is gone, at least 0.
     """
 
     freedom: Freedom
     record: HingeRecord
-    shift: Shift | None = None
+    shift: DrivenShare | None = None
+    worn: DrivenShare | None = None
 
 
 @dataclass(frozen=True, eq=False)

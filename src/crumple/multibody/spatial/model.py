@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, MutableMapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -151,10 +152,11 @@ def _stilled(joint: SpatialHinge) -> SpatialHinge:
 
 def _part(spatial: SpatialHingeRecord, part: HingeComponent) -> SpatialComponent:
     plain = _component(int(part.freedom), part.record)
-    if part.shift is None:
-        return plain
-    like = spatial.freedoms.index(part.shift.like)
-    return replace(plain, shift=(part.shift.rotation, part.shift.share), shift_like=like)
+    for name, share in (("shift", part.shift), ("worn", part.worn)):
+        if share is not None:
+            driven: dict[str, Any] = {name: (share.rotation, share.share)}
+            plain = replace(plain, driver=spatial.freedoms.index(share.driver), **driven)
+    return plain
 
 
 def _component(freedom: int, record: HingeRecord) -> SpatialComponent:

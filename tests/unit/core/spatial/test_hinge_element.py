@@ -31,7 +31,7 @@ from crumple._core import _kernels
 FALLING = ([0.0, 0.5, 1.0], [100.0, 60.0, 50.0])
 WEAKER = ([0.0, 0.5, 1.0], [70.0, 30.0, 20.0])
 SHIFTED = "shifted"
-SHIFT = {"shift_rotation": [0.0, 0.2, 1.0], "shift_share": [-0.2, -0.5, -0.4], "shift_like": 0}
+SHIFT = {"shift_rotation": [0.0, 0.2, 1.0], "shift_share": [-0.2, -0.5, -0.4], "driver": 0}
 """Of an ellipsoid whose centre moves along its component 1."""
 STIFFNESS = (4e3, 3e3, 5e3, 2e3)
 MIRRORED = [[0.9, 0.5, 0.3, 0.0], [0.6, -0.8, 0.5, 0.0], [0.2, 0.6, -0.9, 0.0], [0.5, 0.2, 0.8, 0.0]]
@@ -215,7 +215,7 @@ def test_a_shifted_set_keeps_the_capacity_about_every_axis_alone(form):
         component(freedom, *capacity, elastic_stiffness=1e7 if form == ELASTIC_PLASTIC else np.inf)
         for freedom, capacity in ((ABOUT_Y, (closing, opening)), (ABOUT_Z, (aside,)), (TORSION, (twist,)))
     ]
-    parts[0] |= {"shift_rotation": [0.0, 1.0], "shift_share": [-share] * 2, "shift_like": 1}
+    parts[0] |= {"shift_rotation": [0.0, 1.0], "shift_share": [-share] * 2, "driver": 1}
     far = closing / (1.0 - share)
     centre, narrower = -share * far, np.sqrt(1.0 - share**2)
     for moment, half in (
@@ -236,7 +236,7 @@ def test_a_shifted_set_keeps_the_capacity_about_every_axis_alone(form):
 
 def test_a_shift_grows_with_its_other_component_and_softens_like_it():
     parts = [component(ABOUT_Y, 100.0), component(ABOUT_Z, FALLING), component(TORSION, WEAKER)]
-    parts[0] |= {"shift_rotation": [0.0, 0.1], "shift_share": [0.0, -0.3], "shift_like": 1}
+    parts[0] |= {"shift_rotation": [0.0, 0.1], "shift_share": [0.0, -0.3], "driver": 1}
     element = rig(hinge(*parts, coupling=ELLIPSOID))
     for _ in range(300):
         element.led(H, [1.0, 0.0, 0.0])
@@ -251,6 +251,35 @@ def test_a_shift_grows_with_its_other_component_and_softens_like_it():
     np.testing.assert_allclose(
         element.led(1e-6, [0.0, -1.0, 0.0]), [-0.3 / 0.7 * 100.0, -widest, 0.0], rtol=1e-4, atol=1e-6
     )
+
+
+@pytest.mark.parametrize("form", [SET_VALUED, ELASTIC_PLASTIC])
+def test_a_rotation_about_one_axis_takes_a_share_of_the_capacity_about_another(form):
+    parts = [
+        component(freedom, *capacity, elastic_stiffness=1e7 if form == ELASTIC_PLASTIC else np.inf)
+        for freedom, capacity in ((ABOUT_Y, (100.0, 70.0)), (ABOUT_Z, (90.0,)), (TORSION, (80.0,)))
+    ]
+    parts[0] |= {"worn_rotation": [0.0, 0.1], "worn_share": [0.0, 0.4], "driver": 1}
+    element = rig(hinge(*parts, form=form, coupling=ELLIPSOID))
+
+    def settled(rate):
+        for _ in range(50):
+            moment = element.led(H, rate)
+        return moment
+
+    settled([0.0, 0.0, 1.0])
+    np.testing.assert_allclose(settled([1.0, 0.0, 0.0]), [100.0, 0.0, 0.0], atol=0.1)
+    # half of the way, and back: what is gone is gone, in both senses, and of this axis alone
+    turned = settled([0.0, 1.0, 0.0])
+    np.testing.assert_allclose(turned, [0.0, 90.0, 0.0], atol=0.1)
+    worn = 1.0 - 0.4 * 50 * H / 0.1
+    settled([0.0, -0.5, 0.0])
+    np.testing.assert_allclose(settled([1.0, 0.0, 0.0]), [100.0 * worn, 0.0, 0.0], atol=0.1)
+    np.testing.assert_allclose(settled([-1.0, 0.0, 0.0]), [-70.0 * worn, 0.0, 0.0], atol=0.1)
+    np.testing.assert_allclose(settled([0.0, 0.0, 1.0]), [0.0, 0.0, 80.0], atol=0.1)
+    for _ in range(8):
+        settled([0.0, 1.0, 0.0])
+    np.testing.assert_allclose(settled([1.0, 0.0, 0.0]), [60.0, 0.0, 0.0], atol=0.1)
 
 
 def test_capacity_sensitivity_against_differences():
@@ -308,13 +337,25 @@ def test_fracture_opens_the_hinge_for_good(form, coupling):
         ({"growth_rotation": [0.0], "growth_share": [1.0]}, "growth of an arm are below 1"),
         ({"coupling": BALL}, "rotations only"),
         ({"form": ELASTIC_PLASTIC}, "needs a stiffness"),
-        ({"components": [component(ABOUT_Y, 1.0, **SHIFT), component(ABOUT_Z, 1.0)]}, "has a shift"),
+        ({"components": [component(ABOUT_Y, 1.0, **SHIFT), component(ABOUT_Z, 1.0)]}, "has shares that"),
         ({"components": [component(ABOUT_Y, 1.0, shift_share=[0.1])]}, "one share per rotation"),
         (
             {"components": [component(ABOUT_Y, 1.0, shift_rotation=[0.0], shift_share=[1.0])]},
             "shares of a shift are below 1",
         ),
-        ({"components": [component(ABOUT_Y, 1.0, shift_like=1)]}, "is like another"),
+        ({"components": [component(ABOUT_Y, 1.0, driver=1)]}, "depends on the rotation about a component"),
+        (
+            {"components": [component(ABOUT_Y, 1.0, worn_rotation=[0.0], worn_share=[0.1])]},
+            "depends on the rotation about a component",
+        ),
+        (
+            {"components": [component(ABOUT_Y, 1.0, worn_rotation=[0.0], worn_share=[1.0])]},
+            "capacity that is gone are below 1",
+        ),
+        (
+            {"components": [component(ABOUT_Y, 1.0, worn_rotation=[0.0], worn_share=[-0.1], driver=0)]},
+            "no capacity is gained",
+        ),
     ],
 )
 def test_constants_that_make_no_sense_are_refused(change, message):

@@ -1,4 +1,4 @@
-"""Hinges of mitred corners whose set is shifted: which ones, in which sense, and what follows."""
+"""Hinges of mitred corners whose set is shifted and worn: which ones, in which sense, and what follows."""
 
 import math
 from dataclasses import replace
@@ -8,7 +8,7 @@ import pytest
 
 import crumple
 from crumple.hinge import Form
-from crumple.hinge.corner.shift import corner_shift
+from crumple.hinge.corner.shift import corner_shift, worn_by_bisector
 from crumple.section import Channel, CircularTube, RectangularTube
 from crumple.structure import placed_hinges
 from crumple.structure.hinges.corner.shift import with_corner_shift
@@ -53,7 +53,7 @@ def test_the_centre_moves_in_the_sense_of_opening_whichever_way_the_members_poin
         _, hinge, corner = corner_hinge(framed(text))
         (part,) = (one for one in hinge.spatial.components if one.shift is not None)
         assert part.freedom.label == corner.axis
-        assert part.shift.like.label == corner.across
+        assert part.shift.driver.label == corner.across
         closing = part.record.positive if corner.sense > 0 else part.record.negative
         opening = part.record.negative if corner.sense > 0 else part.record.positive
         assert closing.moment[-1] < opening.moment[-1]
@@ -81,6 +81,17 @@ def test_the_share_grows_to_its_limit_and_vanishes_for_members_in_line():
     assert corner_shift(TUBE, math.radians(101.0)) is None
 
 
+def test_a_fold_about_the_bisector_takes_a_fifth_of_the_moment_about_the_tangent():
+    _, hinge, corner = corner_hinge(framed())
+    (part,) = (one for one in hinge.spatial.components if one.worn is not None)
+    assert part.freedom.label not in (corner.axis, corner.across)
+    assert part.shift is None
+    assert part.worn.driver.label == corner.across
+    np.testing.assert_allclose(part.worn.share, worn_by_bisector(part.worn.rotation))
+    found = worn_by_bisector([0.0, 0.03, 10.0])
+    np.testing.assert_allclose(found, [0.0, 0.2 * (1.0 - math.exp(-1.0)), 0.2], rtol=1e-12)
+
+
 def test_only_three_rotations_on_an_ellipsoid_are_shifted():
     structure, hinge, corner = corner_hinge(framed())
     record, section = hinge.spatial, structure.section_of("post")
@@ -90,9 +101,9 @@ def test_only_three_rotations_on_an_ellipsoid_are_shifted():
     )
     assert with_corner_shift(plain, corner, section) is plain
     other = framed(FRAME.replace("hinges: auto", "hinges: {axes: [x, y, z], coupling: none}"))
-    assert all(part.shift is None for part in corner_hinge(other)[1].spatial.components)
+    assert all(part.shift is part.worn is None for part in corner_hinge(other)[1].spatial.components)
     ramped = [
-        replace(part, record=replace(part.record, form=Form.REGULARISED), shift=None)
+        replace(part, record=replace(part.record, form=Form.REGULARISED), shift=None, worn=None)
         for part in record.components
     ]
     ramped = replace(record, components=tuple(ramped))

@@ -1,4 +1,4 @@
-"""Shift of the yield set of a corner's hinge that bends in and out of the corner's plane."""
+"""How the set of a corner's hinge moves and shrinks while the corner turns in and out of its plane."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from dataclasses import replace
 import numpy as np
 
 from crumple.hinge import Coupling, Form, Freedom, HingeComponent, SpatialHingeRecord
-from crumple.hinge.corner.shift import corner_shift
-from crumple.hinge.record.spatial_record import Shift
+from crumple.hinge.corner.shift import corner_shift, worn_by_bisector
+from crumple.hinge.record.spatial_record import DrivenShare
 from crumple.section import Section
 from crumple.structure.hinges.corners import Corner
 
 PLACES = np.radians(np.linspace(0.0, 90.0, 91))
-"""Rotations at which the shift is given [rad]."""
+"""Rotations at which shares are given [rad]."""
 TURNS = {Freedom.X, Freedom.Y, Freedom.Z}
 
 
 def with_corner_shift(record: SpatialHingeRecord, corner: Corner, section: Section) -> SpatialHingeRecord:
-    """Record of a corner's hinge with the shift of its set along the normal of the corner's plane.
+    """Record of a corner's hinge whose set moves along the normal of its plane, and loses about the tangent.
 
     Parameters
     ----------
@@ -36,9 +36,13 @@ def with_corner_shift(record: SpatialHingeRecord, corner: Corner, section: Secti
     share = corner_shift(section, corner.angle)
     if share is None or not able or {*record.freedoms} != TURNS:
         return record
-    shift = Shift(PLACES, -corner.sense * share(PLACES), Freedom[corner.across.upper()])
+    bisector = Freedom[corner.across.upper()]
+    shift = DrivenShare(PLACES, -corner.sense * share(PLACES), bisector)
+    worn = DrivenShare(PLACES, worn_by_bisector(PLACES), bisector)
 
-    def shifted(component: HingeComponent) -> HingeComponent:
-        return replace(component, shift=shift) if component.freedom.label == corner.axis else component
+    def driven(component: HingeComponent) -> HingeComponent:
+        if component.freedom.label == corner.axis:
+            return replace(component, shift=shift)
+        return component if component.freedom is bisector else replace(component, worn=worn)
 
-    return replace(record, components=tuple(map(shifted, record.components)))
+    return replace(record, components=tuple(map(driven, record.components)))
