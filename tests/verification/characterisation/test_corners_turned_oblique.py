@@ -77,8 +77,9 @@ outputs: {every: 2 ms, nodes: [turned]}
 """
 
 
-def turned_corner(side, depth, wall, degrees, stress, tilt, fixed="ry"):
+def turned_corner(corner, fixed="ry"):
     """Input whose direction is the x axis; the tangent lies `tilt` less 90 degrees from it."""
+    side, depth, wall, degrees, stress, tilt = corner
     half, tangent = math.radians(degrees) / 2.0, math.radians(tilt - 90.0)
     section = f"{{type: rectangular_tube, width: {side} mm, depth: {depth} mm, thickness: {wall} mm}}"
     if depth == 0:
@@ -96,7 +97,7 @@ def turned_corner(side, depth, wall, degrees, stress, tilt, fixed="ry"):
 
 @pytest.mark.parametrize("corner", SHELLS)
 def test_work_and_closing_of_an_oblique_turn_are_those_of_shells(corner, record_figure):
-    result = crumple.solve(turned_corner(*corner))
+    result = crumple.solve(turned_corner(corner))
     assert result["hinge.corner-knee.energy"][-1] > 0.99 * result["energy.dissipated"][-1]
     turned, closed = (result[f"node.turned.rotation.{axis}"] for axis in "xz")
     energies, closing = SHELLS[corner]
@@ -112,7 +113,7 @@ def test_work_and_closing_of_an_oblique_turn_are_those_of_shells(corner, record_
 
 @pytest.mark.parametrize("corner", HELD)
 def test_work_of_a_corner_that_may_not_close_is_that_of_shells(corner, record_figure):
-    result = crumple.solve(turned_corner(*corner, fixed="ry, rz"))
+    result = crumple.solve(turned_corner(corner, fixed="ry, rz"))
     turned = result["node.turned.rotation.x"]
     assert np.abs(result["node.turned.rotation.z"]).max() < 1e-6
     band = 0.20 if corner[1] == 0 else 0.25
