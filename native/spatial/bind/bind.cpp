@@ -139,10 +139,19 @@ void add_spring(Model& model, const nb::tuple& t) {
     model.springs.push_back(s);
 }
 
+void add_folds(Capsule& capsule, const nb::list& folds, Vec3 centre) {
+    require(folds.size() <= 2, "a capsule has a fold at each end at most");
+    for (size_t k = 0; k < folds.size(); k++) {
+        const nb::tuple t = fields(folds[k], 2, "a fold has its middle and half of its length");
+        capsule.folds[k] = {vector(t[0]) - centre, entry<double>(t, 1)};
+        require(capsule.folds[k].half_length > 0, "the length of a fold must be positive");
+    }
+}
+
 void add_contact(Model& model, const nb::dict& d) {
     ContactModel& contact = model.contact;
     for (nb::handle h : entry<nb::list>(d, "capsules")) {
-        const nb::tuple t = fields(h, 5, "a capsule has body, two ends, radius, crush force");
+        const nb::tuple t = fields(h, 6, "a capsule has body, two ends, radius, crush force, folds");
         const int body = entry<int>(t, 0);
         require_body(model, body, true);
         const Vec3 c = centre(model, body);
@@ -150,7 +159,8 @@ void add_contact(Model& model, const nb::dict& d) {
         require(radius >= 0, "the radius of a capsule must not be negative");
         const double crush_force = entry<double>(t, 4);
         require(crush_force > 0, "the crush force of a capsule must be positive");
-        contact.capsules.push_back({body, {vector(t[1]) - c, vector(t[2]) - c, radius}, crush_force});
+        contact.capsules.push_back({body, {vector(t[1]) - c, vector(t[2]) - c, radius}, crush_force, {}});
+        add_folds(contact.capsules.back(), entry<nb::list>(t, 5), c);
     }
     const int capsules = static_cast<int>(contact.capsules.size());
     for (nb::handle h : entry<nb::list>(d, "obstacles")) {

@@ -49,8 +49,10 @@ Contacts::Contacts(const ContactModel& model) : model_(model), placed_(model.cap
     for (const Obstacle& o : model.obstacles) rubs = rubs || o.law.friction > 0;
     rows_ = rubs ? 3 : 1;
     for (size_t o = 0; o < model.obstacles.size(); o++) {
-        for (size_t c = 0; c < model.obstacles[o].capsules.size(); c++) {
-            pairs_.push_back({static_cast<int>(o), -1, model.obstacles[o].capsules[c], model.obstacles[o].ends[c]});
+        const Obstacle& obstacle = model.obstacles[o];
+        const bool curved = obstacle.solid.shape != Shape::plane || obstacle.solid.has_edge;
+        for (size_t c = 0; c < obstacle.capsules.size(); c++) {
+            pairs_.push_back({static_cast<int>(o), -1, obstacle.capsules[c], obstacle.ends[c], curved});
         }
     }
     obstacle_pairs_ = pairs_.size();
@@ -118,7 +120,7 @@ void Contacts::sweep(double margin) {
             const int b = order_[j];
             if (low(b, 1) > high(a, 1) + margin || low(a, 1) > high(b, 1) + margin) continue;
             if (low(b, 2) > high(a, 2) + margin || low(a, 2) > high(b, 2) + margin) continue;
-            const Pair wanted{-1, std::min(a, b), std::max(a, b), both_ends};
+            const Pair wanted{-1, std::min(a, b), std::max(a, b)};
             const auto found = std::lower_bound(first, pairs_.end(), wanted, in_order);
             if (found == pairs_.end() || in_order(wanted, *found) || !found->present) continue;
             near_.push_back(static_cast<size_t>(found - pairs_.begin()));
@@ -252,6 +254,9 @@ void Contacts::locate(size_t i, const std::vector<Pose>& pose, Row* out, double*
     axes[2] = cross(axes[0], axes[1]);
     const Vec3 a = point - placed(pose, c.body[0]).x, b = point - placed(pose, c.body[1]).x;
     for (size_t k = 0; k < rows(); k++) out[k] = {axes[k], cross(a, axes[k]), cross(b, axes[k])};
+    if (!(rows() > 1 && pair.curved)) return;
+    const Capsule& capsule = model_.capsules[at(pair.capsule)];
+    slide_at_folds(capsule.folds, capsule.segment, placed(pose, capsule.body), point, out);
 }
 
 double Contacts::crush_force(const Pair& pair) const {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "spatial/contact/contact.hpp"
+#include "spatial/contact/fold_friction.hpp"
 #include "spatial/model/joint.hpp"
 
 namespace crumple::spatial {
@@ -22,6 +23,7 @@ struct Capsule {
     int body = 0;
     Segment segment;
     double crush_force = INFINITY;  // at which its wall crushes under a contact [N]; infinite: rigid
+    Fold folds[2];                  // at its first and second end
 };
 
 // Solid on a body (-1: the ground), relative to the body's centre, in its frame.
@@ -143,6 +145,7 @@ private:
         int obstacle;               // -1: contact between two capsules
         int solid, capsule;         // indices of capsules
         int ends = both_ends;       // of the capsule that the obstacle meets
+        bool curved = false;        // a ball, a pole or an edge, which may strike a capsule anywhere
         double offset = 0;          // initial gap if the pair overlapped when it first appeared
         bool present = true, seen = false;
     };

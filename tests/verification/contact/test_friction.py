@@ -5,10 +5,18 @@ mu and otherwise accelerates with g (sin a - mu cos a).  A solid sphere that sta
 after 2v/(7 mu g), a solid rod at 2/3 v after v/(3 mu g).  Friction uses the normal impulse of its own
 step; a test measures the error of frozen limits.
 
+A ball of mass M that is guided vertically falls at the speed v on a bar of inertia I about a hinge on its
+axis, at a distance s from the hinge.  The fold there is 2 H long.  Along the bar, the wall slides past the ball
+with the share min(s/H, 1) of its turning about the axis at the radius r, and friction takes hold by the same
+lever.  With w the rate of the bar after the blow, the impulse P follows from
+
+    v - P/M = s w,  I w = P (s - mu r min(s/H, 1))   =>   P = v/(1/M + s (s - mu r min(s/H, 1))/I).
+
 Kind: closed form.  Source: derived here.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -23,7 +31,17 @@ from tests.support.multibody.contact_models import (
     sphere,
 )
 
-from crumple._core.spatial.model import SpatialBody, SpatialCapsule
+from crumple._core.spatial.model import (
+    GROUND,
+    ObstacleKind,
+    SpatialBody,
+    SpatialCapsule,
+    SpatialFold,
+    SpatialJoint,
+    SpatialModel,
+    SpatialObstacle,
+)
+from crumple._core.spatial.simulation import SpatialSimulation
 
 FRICTION = 0.4
 
@@ -158,3 +176,37 @@ def test_few_passes_find_the_limits_of_friction():
     record = run.run(np.array([0.2]))
     assert record.residual < MAX_RESIDUAL
     assert record.solves <= 10 * (record.steps + record.rejected)
+
+
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("distance", [0.01, 0.03, 0.08])
+@pytest.mark.parametrize("half", [None, 0.04])
+def test_a_fold_takes_the_lever_from_friction_along_it(half, distance, turned, record_figure):
+    """`turned`: the bar leads to the other side of the hinge."""
+    side, mass, speed, radius, friction, above = -1.0 if turned else 1.0, 3.0, 2.0, 0.05, 0.15, 1e-4
+    far = (side, 0.0, 0.0)
+    bar, start = rod((0.0, 0.0, 0.0), far, radius), (side * distance, 0.0, 2 * radius + above)
+    inertia = float(bar.inertia[1, 1]) + bar.mass * 0.25
+    folds = () if half is None else (SpatialFold(np.zeros(3), half),)
+    model = SpatialModel(
+        (bar, sphere(start, radius, mass)),
+        (
+            SpatialJoint(GROUND, 0, np.zeros(3), np.eye(3), (True, True, True, True, False, True)),
+            SpatialJoint(GROUND, 1, np.array(start), np.eye(3), (True, True, False, True, True, True)),
+        ),
+        obstacles=(
+            SpatialObstacle(
+                ObstacleKind.SPHERE, 1, np.array(start), radius=radius, friction=friction, capsules=(0,)
+            ),
+        ),
+        capsules=(replace(rod_shape(0, (0.0, 0.0, 0.0), far, radius), folds=folds),),
+        gravity=(0.0, 0.0, 0.0),
+    )
+    run = SpatialSimulation(model, 1e-3)
+    run.set_motion(np.array([[0.0] * 6, [0.0] * 5 + [-speed]]), np.zeros((2, 6)))
+    record = run.run(np.array([0.0, 2 * above / speed]))
+    lever = distance - friction * radius * (1.0 if half is None else min(distance / half, 1.0))
+    impulse = speed / (1 / mass + distance * lever / inertia)
+    name = f"impulse at {distance} m, H = {half}" + (", other side" if turned else "")
+    record_figure(name, mass * (speed + record.velocity[-1, 1, 5]), impulse, 1e-4, "N s", relative=True)
+    assert record.residual < MAX_RESIDUAL

@@ -296,10 +296,19 @@ class SpatialObstacle:
 
 
 @dataclass(frozen=True, eq=False)
+class SpatialFold:
+    """A fold where a capsule ends: its middle on the member's axis at the start, half of its length [m]."""
+
+    middle: Floats
+    half_length: float
+
+
+@dataclass(frozen=True, eq=False)
 class SpatialCapsule:
     """Segment with a radius on a body, ends in the world at the start; a sphere where both are the same.
 
-    `crush_force` is the force at which its wall crushes under a contact [N]; infinite: it is rigid.
+    `crush_force` is the force at which its wall crushes under a contact [N]; infinite: it is rigid.  `folds`
+    are at its ends, two at most.
     """
 
     body: int
@@ -307,6 +316,7 @@ class SpatialCapsule:
     second: Floats
     radius: float
     crush_force: float = math.inf
+    folds: tuple[SpatialFold, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,6 +15,7 @@ from crumple._core.hinge import as_list
 from crumple._core.outcome import Outcome
 from crumple._core.records import ComponentRecord, EnergyRecord, HingeEnergyRecord, HingeSummary, named
 from crumple._core.spatial.model import (
+    SpatialCapsule,
     SpatialDrive,
     SpatialJoint,
     SpatialLoad,
@@ -285,7 +286,8 @@ def as_dict(model: SpatialModel) -> dict[str, Any]:
         "drives": [_drive(drive) for drive in model.drives],
         "obstacles": [_obstacle(obstacle) for obstacle in model.obstacles],
         "capsules": [
-            (c.body, as_list(c.first), as_list(c.second), c.radius, c.crush_force) for c in model.capsules
+            (c.body, as_list(c.first), as_list(c.second), c.radius, c.crush_force, _folds(c))
+            for c in model.capsules
         ],
         "pairs": [list(pair) for pair in model.contact.pairs],
         "contact": (model.contact.friction, model.contact.restitution),
@@ -303,6 +305,10 @@ def _stack(rows: list[Floats], shape: tuple[int, ...]) -> Floats:
 def _joint(joint: SpatialJoint) -> tuple[Any, ...]:
     axes = as_list(np.asarray(joint.axes, float).reshape(9))
     return (joint.first, joint.second, as_list(joint.position), axes, list(joint.held), joint.cross)
+
+
+def _folds(capsule: SpatialCapsule) -> list[tuple[list[float], float]]:
+    return [(as_list(fold.middle), fold.half_length) for fold in capsule.folds]
 
 
 def _load(load: SpatialLoad) -> tuple[Any, ...]:

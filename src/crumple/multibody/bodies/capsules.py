@@ -8,18 +8,20 @@ rim, and by the tips of corners, where the walls of two members that meet at an 
 from __future__ import annotations
 
 import math
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
 
-from crumple._core.spatial.model import SpatialCapsule
+from crumple._core.spatial.model import SpatialCapsule, SpatialFold
 from crumple.cancelling import go_on
 from crumple.errors import InputError, Problem
 from crumple.multibody.bodies.assembly import Piece
 from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.numeric.arrays import Floats, Integers
+from crumple.section import AXES, half_fold_length
 from crumple.structure import PlaneObstacle, Structure
 from crumple.structure.geometry import NARROWEST
 from crumple.structure.hinges.corners import leaving
@@ -38,6 +40,8 @@ the round ends of capsules reach as far, within 1 % of their radius."""
 STANDS_OUT = 1.2
 """Distance from the node towards a plane of a tip of three members over that of their capsules from which it
 counts: flush contacts that touch with both take several times the linear solves, with the same result."""
+SAME = 1e-7
+"""Distance [m] below which places are the same."""
 ROUND = 1.1
 """Ratio of the sides of a section up to which one row of capsules represents it."""
 
@@ -80,6 +84,26 @@ def member_capsules(
                 )
                 owner.append(name)
     return capsules, owner
+
+
+def with_folds(
+    structure: Structure, linkage: Linkage, capsules: Sequence[SpatialCapsule], owner: Sequence[str]
+) -> list[SpatialCapsule]:
+    """Capsules of members with the folds at which they end; a hinge stands for a whole fold."""
+    folds = defaultdict(list)
+    for connection in linkage.connections:
+        hinge = connection.hinge
+        if hinge is not None and hinge.plastic:
+            section = structure.section_of(hinge.member)
+            half = max(half_fold_length(section, axis) for axis in AXES)
+            folds[hinge.member].append((hinge.station, SpatialFold(connection.position, half)))
+    found = []
+    for capsule, member in zip(capsules, owner, strict=True):
+        frame = structure.frame_of(member)
+        ends = [float(frame.x @ (end - frame.origin)) for end in (capsule.first, capsule.second)]
+        at = (fold for station, fold in folds[member] if min(abs(station - end) for end in ends) < SAME)
+        found.append(replace(capsule, folds=tuple(at)))
+    return found
 
 
 def end_corners(

@@ -21,7 +21,7 @@ from crumple._core.spatial.model import (
     SpatialModel,
     SpatialObstacle,
 )
-from crumple.multibody.bodies.capsules import member_capsules, row_shifts, touching_pairs
+from crumple.multibody.bodies.capsules import member_capsules, row_shifts, touching_pairs, with_folds
 from crumple.multibody.bodies.crossing import crossing_members
 from crumple.multibody.bodies.crumpling_ends import CrumplingEnd
 from crumple.multibody.bodies.linkage import GROUND, Linkage
@@ -103,6 +103,7 @@ def with_obstacles(
     if not structure.obstacles and structure.member_contact is None:
         return Touching(model, {}, owners, np.zeros((0, 3)))
     moving, member = member_capsules(structure, linkage.pieces)
+    moving = with_folds(structure, linkage, moving, member)
     surface = surface_of(structure, linkage, moving, member)
     rows = {name: row_shifts(structure, name) for name in structure.members}
     together = {plane: bodies_together(linkage, rows, folding=plane) for plane in (False, True)}
