@@ -52,6 +52,16 @@ OffChord Samples::value_off_chord(double from, double to) const {
     return out;
 }
 
+OffChord Samples::value_off_ends(double from, double to) const {
+    OffChord out;
+    const double start = at(from), end = at(to), low = std::min(start, end), high = std::max(start, end);
+    for (size_t k = next(from); k < times_.size() && times_[k] < to; k++) {
+        const double off = std::max(low - values_[k], values_[k] - high);
+        if (off > out.size) out = {off, times_[k]};
+    }
+    return out;
+}
+
 // The integral is a parabola over each piece; its deviation from the chord has an extremum where the value passes its mean.
 // The size is the range of the deviation, from its minimum to its maximum: it bounds the error of the impulse over any part
 // of the interval.
@@ -122,7 +132,10 @@ StepBound::Step StepBound::dynamic(double t, double h, double accuracy, double l
             const OffChord off = loads_[k].samples.integral_off_chord(from, to);
             if (off.size > 0) sum.size += count(off, speed(k));
         }
-        for (const Function& f : drives_) count(f.samples.value_off_chord(from, to), 1 / f.largest);
+        const bool smallest = to - from <= least / 2;
+        for (const Function& f : drives_) {
+            count(smallest ? f.samples.value_off_ends(from, to) : f.samples.value_off_chord(from, to), 1 / f.largest);
+        }
         return OffChord{std::max(sum.size, worst.size), worst.kink};
     });
 }

@@ -3,7 +3,8 @@
 // A step represents a load by its mean over the step, so that its impulse grows linearly, and interpolates the rate of a drive
 // linearly.  The deviation from these chords is unresolved: a pulse within the step, or a motion there and back.
 // Steps are shortened until the deviation is below the accuracy; a shortened step preferably ends at the kink with the largest
-// deviation.
+// deviation.  Within a step of the smallest length a drive may pass from one rate to another at any time: what remains unresolved
+// there is a motion there and back, beyond the rates at both ends.
 #pragma once
 
 #include <cstddef>
@@ -28,6 +29,8 @@ public:
     double largest() const;
     double largest_integral() const;
     OffChord value_off_chord(double from, double to) const;
+    // by how far values lie outside the range of those at both ends
+    OffChord value_off_ends(double from, double to) const;
     OffChord integral_off_chord(double from, double to) const;
 
 private:

@@ -8,7 +8,9 @@ from crumple._core.spatial.model import (
     GROUND,
     SpatialBody,
     SpatialComponent,
+    SpatialDrive,
     SpatialHinge,
+    SpatialJoint,
     SpatialLoad,
     SpatialModel,
     revolute,
@@ -72,3 +74,22 @@ def test_steps_end_at_breaks(kernel):
 def test_breaks_out_of_order_are_refused(kernel):
     with pytest.raises(ValueError, match="breaks are finite and increase"):
         wheel(kernel, breaks=(0.5, 0.2))
+
+
+@pytest.mark.parametrize("back", [False, True])
+def test_within_a_smallest_step_a_drive_may_change_its_rate_but_not_go_there_and_back(back):
+    """A wheel on a hinge at rest, whose axle is turned about another axis in steps of 1e-6 s at least."""
+    at, lasts, rate = 0.5, 3e-7, 0.1
+    times = np.array([0.0, at, at + lasts / 2, at + lasts, 1.0])
+    rates = np.array([0.0, 0.0, rate, 0.0, 0.0] if back else [0.0, 0.0, rate / 2, rate, rate])
+    bodies = tuple(SpatialBody(1.0, INERTIA * np.eye(3), np.zeros(3)) for _ in range(2))
+    held = SpatialJoint(GROUND, 0, np.zeros(3), np.eye(3), (True,) * 6)
+    hinge = SpatialHinge(1, (SpatialComponent(3, positive=ENVELOPE, negative=ENVELOPE),))
+    model = SpatialModel(
+        bodies,
+        (held, revolute(0, 1, (0.0, 0.0, 0.0), (0.0, 0.0, 1.0))),
+        (hinge,),
+        drives=(SpatialDrive(0, 3, times, rates),),
+    )
+    record = SpatialSimulation(model, 1e-3, minimum_step=1e-6).run(np.array([0.4, 0.6]))
+    assert (record.unseen > 0.1) is back
