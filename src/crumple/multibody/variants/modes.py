@@ -11,7 +11,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from crumple.multibody.checks.collapse import PART, ROUNDING, patterns
+from crumple.multibody.checks.collapse import NOTHING, PART, patterns
 from crumple.multibody.run import Cancel, Progress, Run
 from crumple.multibody.variants.contact_points import contact_points
 from crumple.multibody.variants.law_range import WIDEST, run_as_solved
@@ -127,7 +127,7 @@ def is_impact(structure: Structure, run: Run) -> bool:
 def grouped(names: list[str], ended: Mapping[str, Floats]) -> tuple[Mode, ...]:
     """Runs by mode; rotations at the end [rad], without sign, in the order of the hinges' names."""
     largest = max(float(values.max()) for values in ended.values())
-    if largest <= ROUNDING:
+    if largest <= NOTHING:
         return (Mode((), (), tuple(ended)),)
     part, apart = PART * largest, max(APART * largest, ROOM)
     groups: list[tuple[Floats, list[str]]] = []
