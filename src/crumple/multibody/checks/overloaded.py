@@ -32,6 +32,8 @@ from crumple.structure.hinges.spatial_hinges import interaction_fit_of
 
 USED = 1.1
 """Use of a section's capacity above which a caution is given: the fit of the interaction is up to 6 % off."""
+BEND = ", or let members bend with analysis.multibody.members: elastic"
+"""What else helps rigid bars that carry too much."""
 AXES: tuple[Axis, ...] = ("y", "z")
 
 
@@ -72,9 +74,7 @@ def _helps(structure: Structure, members: Iterable[str], solved: Solved) -> str:
     automatic = all(automatic_of(structure, name) is not None for name in members)
     elastic = all(structure.members[name].elastic for name in members)
     found = "Give a hinge there with 'hinges'" if automatic else "Write 'hinges: auto'"
-    if elastic or solved.bending_tried:
-        return found
-    return f"{found}, or let members bend with analysis.multibody.members: elastic"
+    return found if elastic or solved.bending_tried else found + BEND
 
 
 def _has_hinge(structure: Structure, hinges: Floats, member: str, node: str) -> bool:
