@@ -17,6 +17,7 @@ is not joined to it.  The rules, each with what is left out because it may be me
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
@@ -28,7 +29,7 @@ from crumple.numeric.arrays import Floats
 from crumple.structure.checks.unusual import Unusual, unusual_values
 from crumple.structure.geometry import NARROWEST
 from crumple.structure.hinges.corners import leaving
-from crumple.structure.parts import StructureParts, connected
+from crumple.structure.parts import StructureParts
 from crumple.text.names import listed
 from crumple.units import format_quantity
 
@@ -102,7 +103,7 @@ def doubtful_members(structure: StructureParts) -> tuple[Unusual, ...]:
         *_crossed(across),
         *_loose(structure, named),
         *_double(structure, along),
-        *_short(structure),
+        *_short(structure, lines),
     )
 
 
@@ -126,10 +127,9 @@ def double_members(structure: StructureParts) -> frozenset[str]:
 
 def _alike(structure: StructureParts) -> list[list[str]]:
     """Groups of members with the same two nodes."""
-    groups: dict[frozenset[str], list[str]] = {}
-    for name, spec in structure.members.items():
-        groups.setdefault(frozenset(spec.nodes), []).append(name)
-    return [names for names in groups.values() if len(names) > 1]
+    ends = {name: frozenset(spec.nodes) for name, spec in structure.members.items()}
+    several = [pair for pair, number in Counter(ends.values()).items() if number > 1]
+    return [[name for name, own in ends.items() if own == pair] for pair in several]
 
 
 def _lines(structure: StructureParts) -> _Lines:
@@ -181,11 +181,11 @@ def _nodes_on_members(
 
     Of a node: the member, the node's distance from its line and half of its smaller side [m].
     """
-    nodes = [node for node in structure.nodes if node in structure.members_at]
+    nodes = list(structure.nodes)
     points = np.array([structure.nodes[node] for node in nodes], float).reshape(-1, 3)
     # tubes that have contact may rest on each other; without it a node on the face has no other meaning
     slack = (-1.0 if structure.member_contact is not None else 1.0) * 1e-3
-    welded, at = _welded(structure), structure.members_at
+    welded = _welded(structure)
     place = np.stack([lines.start @ ASKEW, (lines.start + lines.along) @ ASKEW])
     reach, length, half = lines.reach + abs(slack), lines.length, lines.half
     on, along = [], []
@@ -196,11 +196,12 @@ def _nodes_on_members(
         inside &= (local[:, 1:] < lines.high[i] + slack).all(axis=1)
         for k in np.flatnonzero(inside).tolist():
             member, node = lines.names[i[k]], nodes[j[k]]
-            if node in lines.ends[i[k]] or any(frozenset((member, name)) in welded for name in at[node]):
+            if node in lines.ends[i[k]]:
                 continue
-            meeting = [
-                name for name in at[node] if not lines.ends[i[k]].isdisjoint(structure.members[name].nodes)
-            ]
+            at = structure.members_at[node]
+            if any(frozenset((member, name)) in welded for name in at):
+                continue
+            meeting = [name for name in at if not lines.ends[i[k]].isdisjoint(structure.members[name].nodes)]
             if not meeting:
                 on.append((node, member, float(np.hypot(*local[k, 1:])), float(half[i[k]])))
             along += [(member, name) for name in meeting if _is_along(structure, member, name)]
@@ -281,11 +282,7 @@ def _loose(structure: StructureParts, named: set[str]) -> Iterator[Unusual]:
     """Parts that nothing holds or moves, but for those with a sentence about a joint that they lack."""
     if structure.member_contact is not None or (any(structure.gravity) and structure.obstacles):
         return
-    joined = {name: [*spec.nodes] for name, spec in structure.members.items()}
-    for weld, spots in structure.spot_welds.items():
-        for name in spots.members:
-            joined[name].append(f"spot_welds.{weld}")
-    parts = connected(joined)
+    parts = structure.separate_parts
     if len(parts) < 2:
         return
     acting = {part.node for parts in (structure.supports.values(), structure.loads) for part in parts}
@@ -325,14 +322,14 @@ def _double(structure: StructureParts, along: list[tuple[str, str]]) -> Iterator
         yield Unusual(f"member {pair[1]}", 2.0, 1.0, "1", text, "double_member")
 
 
-def _short(structure: StructureParts) -> Iterator[Unusual]:
+def _short(structure: StructureParts, lines: _Lines) -> Iterator[Unusual]:
     """One sentence for all members that are shorter than their sections are large."""
-    found: dict[str, tuple[float, float]] = {}
-    for name, spec in structure.members.items():
-        length = structure.frame_of(name).length
-        side = float(np.ptp(structure.section_of(name).outer_outline(), axis=0).max())
-        if spec.rigid is False and length < side and _length_in_line(structure, name) < side:
-            found[name] = length, side
+    sides, lengths = (lines.high - lines.low).max(axis=1), lines.length
+    found = {}
+    for k in np.flatnonzero(lengths < sides).tolist():
+        name, side = lines.names[k], float(sides[k])
+        if structure.members[name].rigid is False and _length_in_line(structure, name) < side:
+            found[name] = float(lengths[k]), side
     if not found:
         return
     cases = (
