@@ -66,7 +66,7 @@ class InputError(CrumpleError):
 
 
 class CancelledError(CrumpleError):
-    """The caller cancelled before the first step: there is nothing to keep."""
+    """The caller cancelled before the first step, or before all runs that a figure needs: it is not known."""
 
 
 class Status(Enum):

@@ -353,11 +353,19 @@ def _parse_unit(unit_text: str) -> Unit:
 def _named_unit(name: str) -> Unit:
     known = TABLE.get(name) or _pint_unit(name)
     if known is None:
-        close = difflib.get_close_matches(name.lower(), [key.lower() for key in TABLE], n=1, cutoff=0.75)
-        meant = sorted(key for key in TABLE if close and key.lower() == close[0])
-        hint = f" (did you mean {' or '.join(meant)}?)" if meant else ""
+        hint = f" (did you mean {' or '.join(_meant(name))}?)" if _meant(name) else ""
         raise QuantityError(f"unknown unit {_quoted(name)}{hint}")
     return known
+
+
+def _meant(name: str) -> list[str]:
+    """Units that an unknown name may stand for: kg for "kgs", N*s for "Ns", else those spelt nearly so."""
+    one = TABLE.get(name[:-1]) if name.endswith("s") else None
+    if one is not None:
+        # a plural is that of a base unit
+        return [name[:-1] if sum(map(abs, one.dimension)) == 1 else f"{name[:-1]}*s"]
+    close = difflib.get_close_matches(name.lower(), [key.lower() for key in TABLE], n=1, cutoff=0.75)
+    return sorted(key for key in TABLE if close and key.lower() == close[0])
 
 
 @lru_cache(maxsize=1)

@@ -243,9 +243,11 @@ def _check_format(document: Document, file: str) -> None:
         raise InputError(Problem(what, "crumple_study", "an input file", todo, "", file, line))
     if version != FORMAT or isinstance(version, bool):
         what = "the format version is missing" if version is None else "this format version is not known"
-        todo = f"write 'crumple: {FORMAT}' as the first line"
+        came, allowed, todo = shown(version), str(FORMAT), f"write 'crumple: {FORMAT}' as the first line"
+        if isinstance(version, str) and version.strip() == allowed:
+            what, came, allowed = "the format version is a text", f"'{came}'", f"{FORMAT} without quotes"
         line = document.line_of(("crumple",))
-        raise InputError(Problem(what, shown(version), str(FORMAT), todo, "crumple", file, line))
+        raise InputError(Problem(what, came, allowed, todo, "crumple", file, line))
 
 
 def _validated(

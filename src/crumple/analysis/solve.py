@@ -133,17 +133,16 @@ def with_modes(
     return replace(result, modes=found, cautions=(*result.cautions, caution), warnings=warnings)
 
 
-def with_unusual(result: Result, analysis: Analysis) -> Result:
-    """A result with a caution for each kind of value that is far outside of its usual range."""
-    from crumple.result import Caution  # noqa: PLC0415
-    from crumple.structure.checks.unusual import unusual_values  # noqa: PLC0415
+def with_doubts(result: Result, analysis: Analysis) -> Result:
+    """A result with cautions for values far outside of their usual range and for doubtful members."""
+    from crumple.result import Caution, sentences  # noqa: PLC0415
+    from crumple.structure.checks.doubtful import input_doubts  # noqa: PLC0415
 
-    found = unusual_values(analysis.structure, analysis.duration)
+    found = input_doubts(analysis.structure, analysis.duration)
     if not found or not result.time.size:
         return result
-    own = [Caution("unusual_value", one.value, one.limit, one.unit, one.place, one.text) for one in found]
-    texts = (one.text for one in found)
-    return replace(result, cautions=(*own, *result.cautions), warnings=(*texts, *result.warnings))
+    own = [Caution(one.code, one.value, one.limit, one.unit, one.place, one.text) for one in found]
+    return replace(result, cautions=(*own, *result.cautions), warnings=(*sentences(own), *result.warnings))
 
 
 def solved_alone(
@@ -175,7 +174,7 @@ def solved_alone(
 
         run = replace(run_of(analysis), checks=checks)
         solved = solve_multibody(analysis.structure, run, progress, cancel)
-    told = with_unusual(with_unmet(solved, analysis.stages), analysis)
+    told = with_doubts(with_unmet(solved, analysis.stages), analysis)
     return with_criteria(with_filters(told, analysis.outputs, analysis.output_interval), analysis.criteria)
 
 

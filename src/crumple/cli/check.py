@@ -47,7 +47,7 @@ def check(
 def _check_input(file: Path, fidelity: Fidelity) -> None:
     from crumple.analysis import load_input
     from crumple.errors import InputError
-    from crumple.structure.checks.unusual import unusual_values
+    from crumple.structure.checks.doubtful import input_doubts
 
     source = load_input(file)
     # a problem that every solver reports is listed once
@@ -55,8 +55,9 @@ def _check_input(file: Path, fidelity: Fidelity) -> None:
     if found:
         raise InputError(list(found.values()))
     typer.echo(f"{file}: no mistakes found")
-    for one in unusual_values(source.analysis.structure, source.analysis.duration):
-        typer.echo(f"  Caution: {one.text}")
+    doubts = input_doubts(source.analysis.structure, source.analysis.duration)
+    for text in dict.fromkeys(one.text for one in doubts):
+        typer.echo(f"  Caution: {text}")
     for solver in fidelity.solvers:
         notes = (_shell_notes if solver is Fidelity.SHELL else _multibody_notes)(source.analysis)
         for note in notes:

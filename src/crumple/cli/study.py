@@ -101,16 +101,24 @@ def _executor(
 
 
 @contextmanager
-def _resumable(file: Path, folder: Path, *more: str) -> Iterator[None]:
-    """Say after Ctrl-C or SIGTERM that rows are kept, and which command goes on."""
+def _resumable(file: Path, folder: Path, *more: str, rows: Path | None = None) -> Iterator[None]:
+    """Say after Ctrl-C or SIGTERM whether rows are kept, and which command goes on.
+
+    `rows`: the folder of the rows, if it is not that of the command.
+    """
     from crumple.portable import TerminationError, command_line, interrupt_on_termination
+    from crumple.study.table import has_rows
 
     try:
         with interrupt_on_termination():
             yield
     except KeyboardInterrupt as stop:
-        again = command_line("crumple", "study", file, "--out", folder, *more, "--resume")
-        typer.echo(f"Stopped; the rows so far are kept. Go on with: {again}", err=True)
+        again = ("crumple", "study", file, "--out", folder, *more)
+        if has_rows(rows or folder):
+            said = f"Stopped; the rows so far are kept. Go on with: {command_line(*again, '--resume')}"
+        else:
+            said = f"Stopped before the first row was kept. Begin again with: {command_line(*again)}"
+        typer.echo(said, err=True)
         raise typer.Exit(143 if isinstance(stop, TerminationError) else 130) from None
 
 
@@ -126,7 +134,7 @@ def _part(
     wanted, loaded = read_part(part), LoadedStudy(file)
     whole = Path(out) if out is not None else Path("out") / file.stem
     place = part_file(whole, wanted)
-    with results_folder(place.parent, file) as folder, _resumable(file, whole, "--part", part):
+    with results_folder(place.parent, file) as folder, _resumable(file, whole, "--part", part, rows=folder):
         if not resume:
             _forget(folder, (place.name,))
         with progress_bar("solving") as progress, results_errors(place.parent):

@@ -118,10 +118,12 @@ def solve_and_compare(
 
 def _with_neighbours(result: Result, analysis: Analysis, threads: int, cancel: Cancel | None) -> Result:
     """A multibody result with its range from the bands of the laws, and the modes of an impact."""
-    # some structures have no variants; what is solved can be compared without a range
-    with suppress(InputError):
+    # some structures have no variants, and a user may stop them; what is solved can be compared without
+    with suppress(InputError, CancelledError):
         result = with_law_range(result, analysis, threads, cancel)
-    return with_modes(result, analysis, threads, cancel=cancel)
+    with suppress(CancelledError):
+        result = with_modes(result, analysis, threads, cancel=cancel)
+    return result
 
 
 def with_frames(analysis: Analysis, number: int = FRAMES) -> Analysis:

@@ -246,14 +246,19 @@ class StructureParts(Spec):
     @cached_property
     def part_normals(self) -> dict[str, Normal | None]:
         """Normals of the parts by member, where there are several parts."""
+        parts = self.separate_parts
+        if len(parts) < 2:
+            return {}
+        return {name: normal for part in parts for normal in (self._normal(part),) for name in part}
+
+    @cached_property
+    def separate_parts(self) -> list[list[str]]:
+        """Members in groups that nodes or spot welds connect."""
         joined = {name: [*member.nodes] for name, member in self.members.items()}
         for weld, spots in self.spot_welds.items():
             for name in joined.keys() & {*spots.members}:
                 joined[name].append(f"spot_welds.{weld}")
-        parts = connected(joined)
-        if len(parts) < 2:
-            return {}
-        return {name: normal for part in parts for normal in (self._normal(part),) for name in part}
+        return connected(joined)
 
     def _normal(self, members: Sequence[str]) -> Normal | None:
         """Normal of the plane in which some of the members bend, which are connected to no others."""

@@ -128,8 +128,13 @@ def _shares(given: Uncertainty) -> Floats:
 
 
 def _failures(status: Sequence[Status]) -> tuple[str, ...]:
-    lost = sum(not one.ok for one in status)
-    return (f"{lost} of {len(status)} variants did not reach the end and are left out",) if lost else ()
+    stopped = sum(one is Status.CANCELLED for one in status)
+    lost = sum(not one.ok for one in status) - stopped
+    notes = (
+        (stopped, "were not solved: stopped on request"),
+        (lost, "did not reach the end and are left out"),
+    )
+    return tuple(f"{number} of {len(status)} variants {what}" for number, what in notes if number)
 
 
 def _bands(

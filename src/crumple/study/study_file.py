@@ -184,7 +184,10 @@ class StudyDocument:
         if not isinstance(data, dict) or data.get("crumple_study") != 1:
             version = data.get("crumple_study") if isinstance(data, dict) else data
             what, todo = "this is not a study file", "write 'crumple_study: 1' as the first line"
-            raise InputError(Problem(what, shown(version), "crumple_study: 1", todo, file=str(path), line=1))
+            came, allowed = shown(version), "crumple_study: 1"
+            if version == "1":
+                what, came, allowed = "the format version is a text", "'1'", "1 without quotes"
+            raise InputError(Problem(what, came, allowed, todo, file=str(path), line=1))
 
     def refuse_unreadable(self) -> None:
         """Raise for mistakes of the text itself."""

@@ -8,7 +8,7 @@ import os
 import sqlite3
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import closing, contextmanager, suppress
 from importlib import import_module
 from itertools import count
 from pathlib import Path
@@ -346,3 +346,12 @@ def _quoted(text: str) -> str:
     if any(mark in text for mark in ',"\r'):
         return '"' + text.replace('"', '""') + '"'
     return text
+
+
+def has_rows(folder: Path) -> bool:
+    """Whether a file of rows in a folder, or in one below it, has any."""
+    for path in sorted(folder.glob("**/*.sqlite")):
+        with closing(sqlite3.connect(path)) as file, suppress(sqlite3.DatabaseError):
+            if file.execute("SELECT 1 FROM rows LIMIT 1").fetchone():
+                return True
+    return False

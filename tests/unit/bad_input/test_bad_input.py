@@ -172,6 +172,7 @@ CASES = {
     "list as key": ("roll: 0 deg", "[a]: 0 deg", "", "cannot be a key"),
     "deep": ("roll: 0 deg", "roll: " + "[" * 100 + "]" * 100, "", "nested too deeply"),
     "other format": ("crumple: 1", "crumple: 2", "crumple", "format version is not known"),
+    "format as a text": ("crumple: 1", "crumple: '1'", "crumple", "format version is a text"),
     "no format": ("crumple: 1", "", "crumple", "format version is missing"),
     "long title": ("Steel tube", "Steel tube" * 30, "title", "the text is too long"),
     "no such curve": (

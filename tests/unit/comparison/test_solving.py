@@ -7,7 +7,7 @@ from tests.support.result.folded_tube import EXAMPLE
 from crumple.analysis import loads
 from crumple.comparison import with_frames
 from crumple.comparison.solving import mesh_name, solve_and_compare, with_mesh
-from crumple.errors import Status
+from crumple.errors import CancelledError, Status
 from crumple.hinge.record import recording
 from crumple.multibody.timing import REPEATS
 
@@ -52,6 +52,17 @@ def test_cancelled_after_the_shell_run_nothing_more_is_solved(case):
     assert found.candidate.result.status is found.reference.result.status is Status.COMPLETE
     assert found.variants == ()
     assert found.timings == {}
+
+
+def test_a_result_is_compared_although_the_runs_beside_it_are_stopped(case, monkeypatch):
+    def stopped(*_, **__):
+        raise CancelledError("cancelled while the variants were solved")
+
+    monkeypatch.setattr("crumple.comparison.solving.with_law_range", stopped)
+    monkeypatch.setattr("crumple.comparison.solving.with_modes", stopped)
+    found = solve_and_compare(case)
+    assert found.candidate.result.law_range is found.candidate.result.modes is None
+    assert found.candidate.result.status is Status.COMPLETE
 
 
 def test_without_cancelling_the_second_mesh_is_there(case):

@@ -1,5 +1,7 @@
 """Structures in space: which kernel, joints, forces, obstacles, stages, the collapse log."""
 
+import math
+
 import numpy as np
 import pytest
 from tests.support.multibody.frames import CLAMP, LAW, member, structure
@@ -182,7 +184,10 @@ def test_collapse_log_orders_what_passed_the_threshold():
     assert log[0].time == pytest.approx(0.04)
     assert log[1].time == pytest.approx(1.02)
     assert log[1].rotation == -0.2
-    assert collapse_log([history(h, 0.0, 0.0)], np.array([0.0, 1.0]))[0] == ()
+    for still in (0.0, 1e-7, 4e-4):
+        log, threshold = collapse_log([history(h, 0.0, still)], np.array([0.0, 1.0]))
+        assert (log, threshold) == ((), math.radians(0.5))
+    assert len(collapse_log([history(h, 0.0, 6e-4)], np.array([0.0, 1.0]))[0]) == 1
 
 
 def test_a_mechanism_that_a_small_change_moves_elsewhere_is_named():
@@ -193,9 +198,10 @@ def test_a_mechanism_that_a_small_change_moves_elsewhere_is_named():
     assert text == "The mechanism is not unique. With capacities changed by 1 %: k opens instead of i."
 
 
-def test_rotations_of_rounding_are_no_mechanism():
+def test_rotations_of_next_to_nothing_are_no_mechanism():
+    """Boxes that are only crushed turn by 1e-7, and at which end is chance."""
     h, i, _ = hinges()
-    for size, unique in ((1e-17, True), (1e-6, False)):
+    for size, unique in ((1e-17, True), (1e-7, True), (1e-4, True), (2e-4, False)):
         runs = [
             [history(h, 2 * size), history(i, 0.1 * size)],
             [history(h, 0.3 * size), history(i, 4 * size)],

@@ -57,6 +57,15 @@ def test_a_known_probability_lies_in_its_interval(tmp_path):
     assert abs(final[0] - swing.high) < 0.1 * spread
 
 
+def test_variants_that_were_stopped_are_not_those_that_failed(tmp_path):
+    analysis, shares = load(written(tmp_path)), [0.0]
+    result = solve(analysis)
+    found = with_uncertainty(result, analysis, 1, shares.append, lambda: shares[-1] > 0.5).scatter
+    (note,) = (note for note in found.notes if "variants" in note and "criterion" not in note)
+    assert note == f"{400 - found.complete} of 400 variants were not solved: stopped on request"
+    assert 0 < found.complete < 400
+
+
 @pytest.mark.parametrize("name", ["01_tube_bending", "08_s_rail"])
 def test_histories_of_variants_are_those_of_runs(name):
     """With the accuracy and the output times of `solve` they have its bits, in a plane and in space."""

@@ -6,6 +6,8 @@ import signal
 import pytest
 from tests.unit.study.test_study import ROTATION, WALL, rows_of, written
 
+from crumple.study import Table
+
 
 def test_no_feasible_row_names_the_nearest(tmp_path, run_command):
     more = "  m: {mass: true}\nconstraints: [{response: r, at_most: 0.1 deg}]\nobjective: {minimise: m}"
@@ -46,7 +48,10 @@ def test_the_command(run_command, tmp_path):
 
 @pytest.mark.parametrize(("number", "exit_code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_an_interrupted_study_says_how_to_go_on(number, exit_code, run_command, tmp_path, monkeypatch):
-    def interrupted(*_):
+    store = Table._store
+
+    def interrupted(*what):
+        store(*what)
         signal.raise_signal(number)
 
     before = signal.getsignal(number)
@@ -58,6 +63,32 @@ def test_an_interrupted_study_says_how_to_go_on(number, exit_code, run_command, 
     assert "the rows so far are kept" in err
     assert signal.getsignal(number) is before
     assert f"crumple study {file} --out '{tmp_path / 'my rows'}' --resume" in " ".join(err.split())
+
+
+@pytest.mark.parametrize("part", [(), ("--part", "2/2")])
+def test_a_study_that_is_interrupted_before_its_first_row_keeps_none(
+    part, run_command, tmp_path, monkeypatch
+):
+    def interrupted(*_):
+        signal.raise_signal(signal.SIGINT)
+
+    file, out = written(tmp_path, "{type: sobol, rows: 32}"), tmp_path / "out"
+    command = ("study", file, "--out", out, "--workers", 1)
+    if part:
+        # rows of another part are not this one's
+        run_command(*command, "--part", "1/2")
+    with monkeypatch.context() as patch:
+        patch.setattr("crumple.study.table.Table._store", interrupted)
+        code, _, err = run_command(*command, *part)
+    again = " ".join(map(str, ("crumple", "study", file, "--out", out, *part)))
+    assert code == 130
+    said = " ".join(err.split())
+    assert said.endswith(f"Stopped before the first row was kept. Begin again with: {again}")
+    if not part:
+        # rows of an earlier run that --resume keeps
+        run_command(*command, "--no-page")
+        monkeypatch.setattr("crumple.cli.console.progress.progress_bar", interrupted)
+        assert "the rows so far are kept" in run_command(*command, "--resume")[2]
 
 
 def test_the_command_says_that_a_response_is_constant(run_command, tmp_path):

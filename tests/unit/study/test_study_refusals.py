@@ -56,6 +56,7 @@ def test_contradictions(tmp_path, method, variable, response, more, said):
     ("old", "new", "said"),
     [
         ("crumple_study: 1", "crumple: 1", "this is not a study file"),
+        ("crumple_study: 1", "crumple_study: '1'", "the format version is a text"),
         ("method:", "title: a\ntitle: b\nmethod:", "given twice"),
         ("base: ", "title: ", "the base input is missing"),
         (f"  v: {SPEED}", "  {}", "no variable is given"),

@@ -142,6 +142,16 @@ def test_suggests_the_spelling() -> None:
         parse_quantity("488 Mpa", "Pa")
 
 
+@pytest.mark.parametrize(
+    ("written", "unit", "meant"),
+    [("25 kgs", "kg", "kg"), ("25 mms", "m", "mm"), ("5 Ns", "N*s", "N*s")],
+)
+def test_suggests_the_unit_of_a_plural(written: str, unit: str, meant: str) -> None:
+    with pytest.raises(QuantityError) as caught:
+        parse_quantity(written, unit)
+    assert caught.value.problems[0].what.endswith(f"(did you mean {meant}?)")
+
+
 def test_not_a_text() -> None:
     with pytest.raises(QuantityError, match="not a text"):
         parse_quantity(5.0, "m")  # type: ignore[arg-type]

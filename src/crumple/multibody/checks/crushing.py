@@ -22,6 +22,7 @@ from crumple.numeric.rotation import turned
 from crumple.result import Caution
 from crumple.section import plastic_interaction
 from crumple.structure import Structure
+from crumple.structure.checks.doubtful import double_members
 from crumple.structure.hinges.asked import automatic_of
 
 ALONG = np.cos(np.radians(30.0))
@@ -82,9 +83,13 @@ def _at_hinges(structure: Structure, solved: Solved) -> Iterator[tuple[str, floa
     poses = solved.poses
     if not isinstance(poses, SpatialPoses):
         return
+    # of two in one place, equal and opposite forces of any size are a possible set
+    double = double_members(structure)
     for i, connection in enumerate(poses.linkage.connections):
         hinge = connection.hinge
         if hinge is None or not hinge.plastic or int(Freedom.AXIAL) in connection.free:
+            continue
+        if hinge.member in double:
             continue
         axis = turned(poses.quaternion(connection.first), structure.frame_of(hinge.member).x)
         pressed = np.einsum("ni,ni->n", on_second(poses, i).force, np.broadcast_to(axis, (len(axis), 3)))

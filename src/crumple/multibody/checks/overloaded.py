@@ -6,13 +6,13 @@ connections on one side of it, where the rigid parts of the model branch like a 
     force = sum of the connections' forces,    moment = sum of their moments about the node
 
 without the inertia of the rigid parts between, which must carry no mass of their own.  It is compared with
-the plastic interaction of the section.  An end with a hinge within one side and one fold of the node is left
-out: there the hinge stands for the fold.
+the plastic interaction of the section.  An end with a hinge within one side and one fold of the node, or of
+where the joint there ends, is left out: there the hinge stands for the fold.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -26,6 +26,8 @@ from crumple.numeric.rotation import turned
 from crumple.result import Caution
 from crumple.section import Axis, half_fold_length
 from crumple.structure import Structure
+from crumple.structure.hinges.asked import automatic_of
+from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.spatial_hinges import interaction_fit_of
 
 USED = 1.1
@@ -61,18 +63,26 @@ def overloaded_sections(structure: Structure, solved: Solved) -> Iterator[Cautio
         text = (
             f"{named('Member', list(found))} {'is' if one else 'are'} loaded up to "
             f"{max(found.values()):.3g} times what the walls carry at an end without a hinge, where the "
-            f"model is rigid: {'it' if one else 'they'} would fold there. Write 'hinges: auto'"
-            f"{'' if solved.bending_tried else BEND}."
+            f"model is rigid: {'it' if one else 'they'} would fold there. {_helps(structure, found, solved)}."
         )
         for member, use in found.items():
             yield Caution("overloaded_section", use, USED, "1", f"member {member}", text)
+
+
+def _helps(structure: Structure, members: Iterable[str], solved: Solved) -> str:
+    """What else than it has lets a member fold or bend at its end."""
+    automatic = all(automatic_of(structure, name) is not None for name in members)
+    elastic = all(structure.members[name].elastic for name in members)
+    found = "Give a hinge there with 'hinges'" if automatic else "Write 'hinges: auto'"
+    return found if elastic or solved.bending_tried else found + BEND
 
 
 def _has_hinge(structure: Structure, hinges: Floats, member: str, node: str) -> bool:
     """Whether one of the hinges, at places (hinges, 3), stands for a fold at a member's end."""
     section, place = structure.section_of(member), np.asarray(structure.nodes[node], float)
     side = float(np.ptp(section.outer_outline(), axis=0).max())
-    near = side + 2.0 * max(half_fold_length(section, axis) for axis in AXES)
+    near = joint_reach(structure, member, node) + side
+    near += 2.0 * max(half_fold_length(section, axis) for axis in AXES)
     return bool(np.any(np.linalg.norm(hinges - place, axis=1) <= near))
 
 

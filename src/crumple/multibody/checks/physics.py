@@ -27,6 +27,7 @@ from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import turned
 from crumple.result import Caution
 from crumple.structure import Structure
+from crumple.structure.checks.doubtful import double_members
 from crumple.structure.hinges.lengthening.nodes_met import TOGETHER, supports_met
 from crumple.structure.hinges.spatial_hinges import interaction_of
 from crumple.structure.keys.obstacles import gap
@@ -171,9 +172,13 @@ def axial_tensions(structure: Structure, solved: Solved) -> Iterator[tuple[str, 
     poses = solved.poses
     if not isinstance(poses, SpatialPoses):
         return
+    # of two in one place, equal and opposite forces of any size are a possible set
+    double = double_members(structure)
     for i, connection in enumerate(poses.linkage.connections):
         hinge = connection.hinge
         if hinge is None or not hinge.plastic or int(Freedom.AXIAL) in connection.free:
+            continue
+        if hinge.member in double:
             continue
         axis = turned(poses.quaternion(connection.first), structure.frame_of(hinge.member).x)
         pulling = -np.einsum("ni,ni->n", on_second(poses, i).force, np.broadcast_to(axis, (len(axis), 3)))

@@ -49,6 +49,11 @@ def law_range(
     LawRange or None
         None if no law has a known band.
 
+    Raises
+    ------
+    CancelledError
+        If it is cancelled.
+
     References
     ----------
     docs/theory/measured_curves.md.  Verified in tests/unit/multibody/variants/test_law_range.py.
@@ -58,6 +63,7 @@ def law_range(
     if not bands:
         return None
     table = solve_variants(structure, run, factors, threads, cancel=cancel, as_answer=True)
+    table.need_all("the range from the laws is")
     good = np.array([status.ok for status in table.status])
     failed = tuple(name for name, ok in zip(CASES, good.tolist(), strict=True) if not ok)
     known = _known(run, nominal)

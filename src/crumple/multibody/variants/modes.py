@@ -11,7 +11,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from crumple.multibody.checks.collapse import PART, ROUNDING, patterns
+from crumple.multibody.checks.collapse import NOTHING, PART, patterns
 from crumple.multibody.run import Cancel, Progress, Run
 from crumple.multibody.variants.contact_points import contact_points
 from crumple.multibody.variants.law_range import WIDEST, run_as_solved
@@ -70,6 +70,11 @@ def modes(
         None without an impact, with a single hinge, or where `mechanism_check` is off (``auto``: without
         automatic hinges).
 
+    Raises
+    ------
+    CancelledError
+        If it is cancelled.
+
     References
     ----------
     docs/theory/modes.md.  Verified in tests/unit/multibody/variants/test_modes.py.
@@ -84,6 +89,7 @@ def modes(
     runs = {**_capacities(structure), **_friction(structure), **contact_points(structure, run)}
     runs |= _stiffness(structure, run)
     table = solve_variants(structure, run, _columns(structure, runs), threads, progress, cancel)
+    table.need_all("the modes of collapse are")
     given = {name: float(result[f"hinge.{name}.plastic_rotation"][-1]) for name in names}
     turned: dict[str, dict[str, float] | None] = {RESULT: given}
     for i, (name, changes) in enumerate(runs.items()):
@@ -105,6 +111,7 @@ def _alone(
 ) -> dict[str, float] | None:
     """Rotations of a run whose parts no batch has: an obstacle that strikes elsewhere folds another place."""
     table = solve_variants(structure, run, changes, threads, None, cancel)
+    table.need_all("the modes of collapse are")
     names = [hinge.name for hinge in plastic_hinges(structure)]
     return _rotations(table, 0, names) if table.status[0].ok else None
 
@@ -127,7 +134,7 @@ def is_impact(structure: Structure, run: Run) -> bool:
 def grouped(names: list[str], ended: Mapping[str, Floats]) -> tuple[Mode, ...]:
     """Runs by mode; rotations at the end [rad], without sign, in the order of the hinges' names."""
     largest = max(float(values.max()) for values in ended.values())
-    if largest <= ROUNDING:
+    if largest <= NOTHING:
         return (Mode((), (), tuple(ended)),)
     part, apart = PART * largest, max(APART * largest, ROOM)
     groups: list[tuple[Floats, list[str]]] = []

@@ -97,6 +97,17 @@ class VariantTable:
         """A quantity or a parameter by name."""
         return self.quantities[name] if name in self.quantities else self.parameters[name]
 
+    def need_all(self, what: str) -> None:
+        """Refuse rows that were not solved because the caller cancelled: they say nothing of their variants.
+
+        Raises
+        ------
+        CancelledError
+            If there are any; `what` is not known then.
+        """
+        if Status.CANCELLED in self.status:
+            raise CancelledError(f"cancelled while the variants were solved: {what} not known")
+
     def to_pandas(self) -> pd.DataFrame:
         """One row per variant in SI units: parameters, quantities, status and reason.
 

@@ -13,6 +13,7 @@ from crumple.hinge.registry import BENDING
 from crumple.structure.hinges.hinges import spatial_record_of
 from crumple.structure.hinges.places import HingePlace, alike_law, law_of, member_hinge_places
 from crumple.structure.hinges.runs.ends import holds_rotation
+from crumple.structure.keys.member import Hinge
 from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import Names, outside
 
@@ -30,7 +31,7 @@ def place_problems(structure: StructureParts, known: Mapping[str, Names]) -> Ite
         for place in places:
             where[place.name].append(place.where)
             if not -APART * length <= place.station <= length * (1.0 + APART):
-                yield outside(f"{place.where}.at", place.station, length)
+                yield _outside(place, length)
         # one message for the many hinges between equal bars, and for those that one `auto` puts into many
         # members
         for place in {(place.where, place.axis): place for place in places}.values():
@@ -50,6 +51,16 @@ def place_problems(structure: StructureParts, known: Mapping[str, Names]) -> Ite
         if len(named) > 1:
             what, todo = f"{len(named)} hinges have the name '{name}'", "rename all but one"
             yield Problem(what, name, "a name of its own", todo, f"{named[-1]}.name")
+
+
+def _outside(place: HingePlace, length: float) -> Problem:
+    """A hinge outside its member of a length [m]: by its offset, if this begins at a place that is inside."""
+    keys = place.keys
+    if isinstance(keys, Hinge) and keys.offset is not None:
+        begin = 0.0 if isinstance(keys.at, str) else keys.at
+        if 0.0 <= begin <= length:
+            return outside(f"{place.where}.offset", keys.offset, length, begin)
+    return outside(f"{place.where}.at", place.station, length)
 
 
 def inertia_problems(structure: StructureParts, known: Mapping[str, Names]) -> Iterator[Problem]:

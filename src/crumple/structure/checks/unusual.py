@@ -44,13 +44,14 @@ class Usual:
 
 @dataclass(frozen=True)
 class Unusual:
-    """Values outside of a range: the first one, the end of the range that it is beyond, and a sentence."""
+    """What is unusual in an input: the value found, the limit that it is beyond, a sentence, and its code."""
 
     place: str
     value: float
     limit: float
     unit: str
     text: str
+    code: str = "unusual_value"
 
 
 def _material(key: str) -> Callable[[StructureParts, float], Found]:

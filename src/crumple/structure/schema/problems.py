@@ -142,9 +142,10 @@ def unknown(kind: str, name: str, known: Iterable[str], where: str) -> Iterator[
         yield Problem(f"there is no {kind} '{shown(name)}'", shown(name), names.listed, todo, where)
 
 
-def outside(where: str, station: float, length: float) -> Problem:
-    """A place [m] that is not on a member of a length [m]."""
-    came, allowed = f"{1e3 * station:.6g} mm", f"0 mm to {1e3 * length:.6g} mm"
+def outside(where: str, distance: float, length: float, begin: float = 0.0) -> Problem:
+    """A place that is not on a member of a length [m], by its distance [m] from where one begins to count."""
+    came = f"{1e3 * distance:.6g} mm"
+    allowed = f"{1e3 * (0.0 - begin):.6g} mm to {1e3 * (length - begin):.6g} mm"
     return Problem("this place is outside the member", came, allowed, "choose a place on the member", where)
 
 

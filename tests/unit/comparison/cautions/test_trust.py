@@ -233,8 +233,8 @@ def test_many_hinges_and_a_long_order_are_cut():
         for i, name in enumerate(names)
     )
     opened = {
-        "multibody": [SimpleNamespace(name=name) for name in names],
-        "shell": [SimpleNamespace(name=name) for name in (*names[:3], *names[:2:-1])],
+        "multibody": opened_at(names),
+        "shell": opened_at((*names[:3], *names[:2:-1])),
     }
     comparison = SimpleNamespace(
         candidate=SimpleNamespace(name="multibody"),
@@ -254,6 +254,54 @@ def test_many_hinges_and_a_long_order_are_cut():
     assert wrong
     assert order.startswith("After the first 3, which agree, the hinges open in different orders: hinge 3,")
     assert order.count("and 3 more") == 2
+
+
+def opened_at(names, times=()):
+    """Openings of hinges at these times, or one after the other."""
+    given = times or range(1, 1 + len(names))
+    return [SimpleNamespace(name=name, time=time) for name, time in zip(names, given, strict=True)]
+
+
+@pytest.mark.parametrize(
+    ("order", "times", "told"),
+    [
+        ("abc", (1.0, 2.0, 3.0), "Hinges open in the same order in both: a, b, c."),
+        # mirror images: together in one result, in either order in the other
+        (
+            "acb",
+            (1.0, 2.0, 2.01),
+            "Hinges open in the same order in both, but for those that open at the same",
+        ),
+        (
+            "acb",
+            (1.0, 2.0, 2.1),
+            "After the first 1, which agree, the hinges open in different orders: b, c in",
+        ),
+        # nothing agrees before the first difference if the first two open together
+        (
+            "cab",
+            (1.0, 1.01, 3.0),
+            "The hinges open in different orders: a, b, c in the multibody result, c, a",
+        ),
+    ],
+)
+def test_the_order_of_hinges_that_open_together_is_chance(order, times, told):
+    source = [SimpleNamespace(name=name) for name in ("multibody", "shell")]
+    opened = {"multibody": opened_at("abc"), "shell": opened_at(order, times)}
+    ((text, wrong),) = _order(SimpleNamespace(candidate=source[0], reference=source[1], opened=opened))
+    assert text.startswith(told)
+    assert wrong == ("different" in told)
+
+
+def test_what_agrees_before_the_first_difference_is_the_same_hinges():
+    """The first to open are a and c, by chance, as they open together in the first result."""
+    source = [SimpleNamespace(name=name) for name in ("multibody", "shell")]
+    opened = {
+        "multibody": opened_at("abcd", (1.0, 1.01, 1.015, 3.0)),
+        "shell": opened_at("cdab", (1.0, 2.0, 2.01, 3.0)),
+    }
+    ((text, _),) = _order(SimpleNamespace(candidate=source[0], reference=source[1], opened=opened))
+    assert text.startswith("The hinges open in different orders: a, b, c, d in the multibody result")
 
 
 def test_welds_that_failed_are_a_caution(case, multibody):

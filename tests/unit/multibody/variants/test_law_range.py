@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 
 from crumple.analysis import load, solve, with_law_range
 from crumple.cli.main import app
+from crumple.errors import CancelledError, Status
 from crumple.hinge import build_law
 from crumple.multibody import Run, law_range, solve_multibody, solve_variants
 from crumple.result import read, summary, write
@@ -42,6 +43,18 @@ def test_the_range_is_that_of_runs_with_the_edges_of_the_band():
     assert found.bands == {"h": pytest.approx(law.validity.uncertainty)}
     assert found.of("hinge.h.rotation_max") == pytest.approx(tuple(edges), rel=2e-3)
     assert found.failed == ()
+
+
+def test_a_range_that_is_stopped_is_not_one_of_runs_that_failed(monkeypatch):
+    def stopped(*what, **options):
+        table = solve_variants(*what, **options)
+        return replace(table, status=(*table.status[1:], Status.CANCELLED))
+
+    monkeypatch.setattr("crumple.multibody.variants.law_range.solve_variants", stopped)
+    with pytest.raises(
+        CancelledError, match="while the variants were solved: the range from the laws is not"
+    ):
+        solved(bar("kecman"))
 
 
 def equal_to_the_result(result, found):

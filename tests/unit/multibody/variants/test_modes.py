@@ -1,6 +1,7 @@
 """Modes of collapse: the S-rail slides or sticks, runs are grouped by rotations, obstacles are moved."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,9 +11,10 @@ from typer.testing import CliRunner
 from crumple.analysis import loads, solve, with_modes
 from crumple.analysis.solve import run_of
 from crumple.cli.main import app
+from crumple.errors import CancelledError, Status
 from crumple.multibody import modes
 from crumple.multibody.variants.contact_points import contact_points
-from crumple.multibody.variants.modes import grouped, is_impact
+from crumple.multibody.variants.modes import _alone, grouped, is_impact
 from crumple.multibody.variants.variants import solve_variants
 from crumple.result import read, summary, write
 from crumple.structure import changed, plastic_hinges
@@ -63,6 +65,23 @@ def test_the_rail_slides_or_sticks_and_near_the_edge_does_both(friction, number)
         other = "more friction" if friction < 0.28 else "less friction"
         assert other in result.modes.modes[1].runs
         assert result.warnings[0] == found[0].text == result.modes.sentence
+
+
+def test_modes_that_are_stopped_are_not_those_of_runs_that_failed(monkeypatch):
+    """Of the runs in one batch, and of one alone, for which the pole meets the tube elsewhere."""
+
+    def stopped(*what, **options):
+        table = solve_variants(*what, **options)
+        return replace(table, status=(*table.status[1:], Status.CANCELLED))
+
+    analysis = rail(0.1, members="rigid")
+    result = solve(analysis)
+    monkeypatch.setattr("crumple.multibody.variants.modes.solve_variants", stopped)
+    with pytest.raises(CancelledError, match="while the variants were solved: the modes of collapse are not"):
+        with_modes(result, analysis)
+    pushed = loads(PUSHED)
+    with pytest.raises(CancelledError, match="while the variants were solved: the modes of collapse are not"):
+        _alone(pushed.structure, run_of(pushed), {"hinges.post-pole.capacity": 1.0}, 1, None)
 
 
 def test_modes_are_kept_in_all_files(tmp_path):

@@ -45,6 +45,16 @@ MISTAKES = {
     ),
     "hinge before": (
         {"members.arm.hinges": [{"name": "a", "at": 0.1, "offset": -0.2}]},
+        "members.arm.hinges[0].offset",
+        "outside",
+    ),
+    "hinge before a node": (
+        {"members.arm.hinges": [{"name": "a", "at": "root", "offset": -0.04}]},
+        "members.arm.hinges[0].offset",
+        "outside",
+    ),
+    "hinge outside with an offset": (
+        {"members.arm.hinges": [{"name": "a", "at": 1.2, "offset": 0.1}]},
         "members.arm.hinges[0].at",
         "outside",
     ),
