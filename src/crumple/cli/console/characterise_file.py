@@ -171,7 +171,7 @@ def _missing(every: Sequence[Needed], store: Path, converge: bool) -> list[Neede
 
     stored = {
         place: read_law(text)
-        for place, text in (by_place(read_store(store)) if store.is_dir() else {}).items()
+        for place, text in (by_place(read_store(store, filling=True)) if store.is_dir() else {}).items()
     }
 
     def lacks(one: Needed) -> bool:
