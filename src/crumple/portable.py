@@ -152,6 +152,13 @@ def reader_left(error: OSError) -> bool:
     )
 
 
+def refusal_of(error: OSError) -> str:
+    """Why the system refused something, for people; libraries give their own text in place of its reason."""
+    if isinstance(error, FileExistsError | NotADirectoryError):
+        return "a file has this name, or the name of a folder above it"
+    return os.strerror(error.errno) if error.errno else "the operating system refused"
+
+
 def prepare_consoles() -> None:
     """Let the standard streams take any character: what an encoding lacks is written in those that it has."""
     codecs.register_error("crumple", _readable)

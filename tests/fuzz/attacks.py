@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 from tests.fuzz.strategies import law_texts
+from tests.support.stored_laws import law_text
 
 from crumple.analysis import Analysis, check, input_hash, loads, solve
 from crumple.comparison.rating.curve_file import read_curves
@@ -59,11 +60,11 @@ def beside(text: str) -> None:
     if "curve.csv" in text:
         Path("curve.csv").write_text("rotation [deg], moment [N*m]\n0, 0\n2, 900\n10, 700\n30, 500\n")
     if "law.yaml" in text or "store" in text:
-        for name, content in (("law.yaml", law_texts()[0]), ("store/a.yaml", law_texts()[0])):
+        for name, content in (("law.yaml", law_texts()[0]), ("store/a.law.yaml", law_text("0" * 16))):
             Path(name).parent.mkdir(exist_ok=True)
             Path(name).write_text(content, encoding="utf-8")
         Path("bad_store").mkdir(exist_ok=True)
-        Path("bad_store/a.yaml").write_text("crumple_law: 1\n", encoding="utf-8")
+        Path("bad_store/a.law.yaml").write_text("crumple_law: 1\n", encoding="utf-8")
 
 
 def attack_input(text: str) -> str:

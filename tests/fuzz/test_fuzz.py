@@ -90,6 +90,7 @@ def test_refusals_are_found_in_the_source_and_noted_exactly():
         # the message has been worded by four functions on its way here
         reached = worker.run(Case("law", "crumple_law: 1\nrotation: &a 3\n")).sites
     assert reached == {
+        "hinge/measured/law_file.py read_law: InputError(told)",
         "text/plain_yaml.py _Reader._entry: anchors and aliases are refused",
         "text/plain_yaml.py _Reader._refused: _refusal(what, self._file, event.start_mark.line + 1)",
         "text/plain_yaml.py _refusal: Problem(what, '', allowed, todo, '', file, line)",

@@ -278,7 +278,7 @@ std::vector<Twist> to_twists(const In& a, size_t bodies) {
 
 nb::dict to_dict(const Simulation& sim, const Record& r) {
     const Model& m = sim.model();
-    const size_t n = r.time.size(), bodies = m.bodies.size(), c = sim.peaks().size() / 2;
+    const size_t n = r.time.size(), bodies = m.bodies.size(), c = sim.components();
     nb::dict d;
     d["time"] = to_array(r.time, {n});
     d["centre"] = to_array(r.centre, {n, bodies, 3});
@@ -293,7 +293,6 @@ nb::dict to_dict(const Simulation& sim, const Record& r) {
     d["obstacle_force"] = to_array(r.obstacle_force, {n, m.contact.obstacles.size(), 3});
     d["energy"] = columns(r.energy, {n});
     d["summary"] = columns(sim.summary(), {m.hinges.size()});
-    d["peaks"] = to_array(sim.peaks(), {c, 2});
     d["outcome"] = static_cast<int>(r.outcome);
     d["reason"] = r.reason;
     d["ended_by"] = r.ended_by;

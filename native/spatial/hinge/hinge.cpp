@@ -285,6 +285,12 @@ void commit(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHinge
     }
 }
 
+double length_of_moment(const SpatialHinge& hinge, const SpatialHingeState& s) {
+    double moment[most];
+    for (int k = 0; k < size(hinge); k++) moment[k] = s.component[k].total_moment;
+    return length_of_rotation(hinge, moment);
+}
+
 bool turning(const SpatialHinge& hinge, const SpatialHingeState& s) {
     if (!coupled(hinge)) {
         bool any = false;

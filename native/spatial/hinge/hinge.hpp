@@ -124,6 +124,8 @@ double left_by_shear(const SpatialHinge& hinge, double along_y, double along_z);
 // updates the state variables; `turn` (n): the rotations and slip over the step, h (w0 + w1)/2
 void commit(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHingeState& state, double t0, const double* q0,
             const double* w1, double* turn);
+// length of the vector of its moments, with dampers and stops [N m]; forces along axes are no part of it.
+double length_of_moment(const SpatialHinge& hinge, const SpatialHingeState& state);
 // energies [J]: of the elastic springs; of the stops at relative rotations q; dissipated so far by plastic flow, dampers and stops
 double elastic_energy(const SpatialHinge& hinge, const SpatialHingeState& state);
 double stop_energy(const SpatialHinge& hinge, const double* q);

@@ -139,14 +139,9 @@ HingeSummary<double> Simulation::summary() const {
     for (size_t j = 0; j < state_.hinge.size(); j++) {
         const SpatialHinge& hinge = model_.hinges[j];
         const SpatialHingeState& s = state_.hinge[j];
-        double moment = 0;
-        for (int k = 0; k < size(hinge); k++) {
-            const size_t c = static_cast<size_t>(stepper_.first_component(j) + k);
-            if (hinge.components[static_cast<size_t>(k)].freedom >= 3) moment = std::max(moment, peak_[2 * c + 1]);
-        }
         const bool whole = s.fracture_time < 0;
         out.rotation_max.push_back(s.rotation_max);
-        out.moment_max.push_back(moment);
+        out.moment_max.push_back(moment_max_[j]);
         out.opening_time.push_back(s.opening_time < 0 ? none : s.opening_time);
         out.rest_time.push_back(s.rest_time);
         out.turning.push_back(turning(hinge, s) ? 1.0 : 0.0);
@@ -156,7 +151,5 @@ HingeSummary<double> Simulation::summary() const {
     }
     return out;
 }
-
-std::vector<double> Simulation::peaks() const { return peak_; }
 
 }  // namespace crumple::spatial

@@ -31,7 +31,7 @@ Simulation::Simulation(Model model, const Settings& settings)
     state_ = stepper_.start();
     first_ = state_;
     stepper_.set_obstacles(std::vector<bool>(model_.contact.obstacles.size(), true), state_);
-    peak_.assign(2 * state_.rotation.size(), 0.0);
+    moment_max_.assign(model_.hinges.size(), 0.0);
 }
 
 // Preparation that takes long with many hinges and must therefore be cancellable.
@@ -114,11 +114,7 @@ void Simulation::watch(Record& record) {
     scale_ = std::max(scale_, worst_place(state_, first_, false));
     speed_ = std::max(speed_, kinetic_norm(model_, state_, nullptr));
     for (size_t j = 0; j < model_.hinges.size(); j++) {
-        for (int k = 0; k < size(model_.hinges[j]); k++) {
-            const size_t c = static_cast<size_t>(stepper_.first_component(j) + k);
-            peak_[2 * c] = std::max(peak_[2 * c], std::fabs(state_.rotation[c]));
-            peak_[2 * c + 1] = std::max(peak_[2 * c + 1], std::fabs(state_.hinge[j].component[k].total_moment));
-        }
+        moment_max_[j] = std::max(moment_max_[j], length_of_moment(model_.hinges[j], state_.hinge[j]));
     }
     const Energies e = energies(model_, state_);
     largest_energy_ = std::max(largest_energy_, e.structure_kinetic());

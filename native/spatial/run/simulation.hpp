@@ -70,6 +70,8 @@ public:
     Simulation& operator=(const Simulation&) = delete;
 
     const Model& model() const { return model_; }
+    // components of all hinges
+    size_t components() const { return state_.rotation.size(); }
     Stepper& stepper() { return stepper_; }
     State& state() { return state_; }
     // Adds velocities and impulses at the centres of mass; returns the kinetic energy lost in making them compatible with the joints.
@@ -98,8 +100,6 @@ public:
     // follows the stored steps of another run of this model or of a similar one; false if a step cannot be solved
     bool follow(const StepRecords& steps);
     HingeSummary<double> summary() const;
-    // per component: largest rotation and moment
-    std::vector<double> peaks() const;
 
 private:
     struct Critical {
@@ -177,7 +177,7 @@ private:
     Ahead ahead_;
     std::vector<Critical> critical_;  // stops that get critical damping
     std::vector<Condition> until_;
-    std::vector<double> peak_;        // per component: largest rotation and moment
+    std::vector<double> moment_max_;  // largest length of each hinge's moment vector [N m]
     StepLength length_;
     double step_tolerance_;           // allowed value of the error measure
     double scale_ = 0, speed_ = 0;

@@ -78,7 +78,7 @@ class HingeSummary:
     Attributes
     ----------
     rotation_max, moment_max
-        Largest magnitudes; of several rotations the length of the rotation vector.
+        Largest magnitudes; of several rotations the lengths of the vectors of rotation and of moment.
     opening_time
         Of first flow [s]; NaN where it never flowed, or the kernel does not watch it.
     rest_time

@@ -149,6 +149,7 @@ def characterise(
         interaction and law is not None and not {"axial_tension", *COUPLED}.intersection(dict(law.origin))
     )
     if law is None or lacking:
+        laws.prepare([model])
         done = _solved(model, threads, converge=converge, interaction=interaction)
         law = done.law
         path = laws.keep(model, law)
@@ -282,12 +283,16 @@ def _solved(model: SubModel, threads: int | None, *, converge: bool, interaction
 
 
 def _picture(done: Characterised, path: Path) -> None:
-    """Draw the folded sub-model beside its law file."""
+    """Draw the folded sub-model beside its law file; without the picture the law is as good."""
+    from crumple.portable import refusal_of
     from crumple.report.figures.shape import deformation
 
-    drawing = deformation(done.result)
-    if drawing is not None:
-        path.with_suffix(".svg").write_text(drawing, encoding="utf-8")
+    drawing, picture = deformation(done.result), path.with_suffix(".svg")
+    try:
+        if drawing is not None:
+            picture.write_text(drawing, encoding="utf-8")
+    except OSError as error:
+        typer.echo(f"No picture: {picture} cannot be written: {refusal_of(error)}", err=True)
 
 
 def _curve(model: SubModel, law: Any) -> LawCurve:

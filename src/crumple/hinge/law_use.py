@@ -27,12 +27,15 @@ class LawUse:
         Relative half-width of the band of the law [-]; None: not known.
     command
         Command that gives a better law, with `INPUT` for the input file; empty: there is none.
+    has_checksum
+        Whether the file of a stored or given law shows that it is as a program wrote it; true for others.
     """
 
     origin: Origin
     content: str
     band: float | None = None
     command: str = ""
+    has_checksum: bool = True
 
     def sentence(self, file: str = INPUT) -> str:
         """Origin, band and hash in a few words, with the command for an input file."""
@@ -44,5 +47,6 @@ class LawUse:
             "estimate": "estimate without evidence",
         }
         band = "band not known" if self.band is None else f"band ±{100.0 * self.band:.2g} %"
+        unsure = "" if self.has_checksum else ", without a checksum"
         better = f"; better: {self.command.replace(INPUT, command_line(file))}" if self.command else ""
-        return f"{words[self.origin]}, {band}, {self.content}{better}"
+        return f"{words[self.origin]}{unsure}, {band}, {self.content}{better}"

@@ -63,7 +63,7 @@ class HingeSummary:
     Attributes
     ----------
     rotation_max
-        Largest absolute rotation [rad].
+        Largest absolute rotation [rad], of a hinge about several axes the largest length of the vector.
     rotation_final
         Rotation at the end [rad], signed.
     time_of_rest
@@ -71,7 +71,7 @@ class HingeSummary:
     energy
         Energy absorbed (dissipated) [J].
     moment_max
-        Largest absolute moment [N m].
+        Largest absolute moment [N m], of several axes the largest length of the vector.
     rotation_error
         Estimated error of rotation_max [rad]; None where no estimate was made.
     law, source, form

@@ -65,6 +65,12 @@ def test_the_value_is_refused_where_it_is(old, new, where, words, tmp_path):
     assert any(where in problem.where for problem in refused.value.problems)
 
 
+def test_the_store_of_an_input_may_be_empty_until_its_laws_are_solved(tmp_path):
+    (tmp_path / "laws").mkdir()
+    text = GOOD.replace("crumple: 1\n", "crumple: 1\nlaws: laws\n")
+    assert loads(text, directory=tmp_path).structure.laws.texts == ()
+
+
 LAW = law_text("0" * 16)
 
 

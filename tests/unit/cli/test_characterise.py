@@ -1,14 +1,15 @@
 """`crumple characterise` prints and keeps the law of a sub-model; what is kept is not solved again."""
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from crumple.characterisation import Bending, LawCurve, solving
+from crumple.characterisation import Bending, LawCurve, LawStore, solving
 from crumple.characterisation.law import law_of
-from crumple.cli.characterise import _show
+from crumple.cli.characterise import _picture, _show
 from crumple.cli.main import app
 from crumple.errors import InputError
 from crumple.hinge import read_law
@@ -16,6 +17,9 @@ from crumple.material import Material
 from crumple.section import RectangularTube
 
 TUBE = ["characterise", "rectangular_tube 50x25x2.65 mm", "--material", "yield 488 MPa, E 210 GPa"]
+
+METAL = Material("metal", 210e9, 0.3, 7850.0, 488e6)
+MODEL = Bending(RectangularTube(0.05, 0.025, 0.00265), METAL, largest=0.1745)
 
 
 def invoke(*arguments):
@@ -50,11 +54,9 @@ def test_law_is_solved_once_and_kept(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize(("turned", "said"), [(0.1745, False), (0.1, True)])
 def test_a_law_that_ends_before_what_was_asked_for_says_so(turned, said, tmp_path, capsys):
-    material = Material("metal", 210e9, 0.3, 7850.0, 488e6)
-    model = Bending(RectangularTube(0.05, 0.025, 0.00265), material, largest=0.1745)
     rotation = np.linspace(0.0, turned, 5)
     curve = LawCurve(rotation, np.full(5, 1000.0), 1000.0 * rotation)
-    _show(model, law_of(model, curve, None, {}, None), tmp_path / "law.yaml")
+    _show(MODEL, law_of(MODEL, curve, None, {}, None), tmp_path / "law.yaml")
     text = " ".join(capsys.readouterr().out.split())
     assert ("The law ends at 5.73 deg, not at 10 deg" in text) is said
 
@@ -74,3 +76,62 @@ def test_what_cannot_be_is_refused(options, what, tmp_path):
     with pytest.raises(InputError, match=what):
         invoke("--store", str(tmp_path / "kept"), *options)
     assert not (tmp_path / "kept").exists()
+
+
+@pytest.mark.parametrize("given", [TUBE[1:], ["examples/12_l_frame.yaml"]])
+def test_a_store_that_cannot_be_written_is_refused_before_anything_is_solved(given, tmp_path, monkeypatch):
+    solved = []
+    monkeypatch.setattr(solving, "solve", lambda *_, **__: solved.append(1))
+    monkeypatch.setattr("crumple.characterisation.parallel.characterise_all", lambda *_, **__: solved)
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    for store in (tmp_path / "file", tmp_path / "file" / "laws"):
+        with pytest.raises(InputError, match="a file has this name") as caught:
+            CliRunner().invoke(app, ["characterise", *given, "--store", str(store)], catch_exceptions=False)
+        assert "--store" in caught.value.problems[0].todo
+    assert solved == []
+
+
+def law():
+    rotation = np.linspace(0.0, 0.2, 5)
+    return law_of(MODEL, LawCurve(rotation, np.full(5, 1000.0), 1000.0 * rotation), None, {}, None)
+
+
+def test_a_folder_with_the_name_of_a_law_is_refused_before_anything_is_solved(tmp_path):
+    store = LawStore(tmp_path)
+    store.prepare([MODEL])
+    store.path(MODEL).mkdir()
+    with pytest.raises(InputError, match="a folder has this name"):
+        store.prepare([MODEL])
+
+
+@pytest.mark.parametrize("room", [True, False])
+def test_a_law_that_its_store_does_not_take_is_kept_elsewhere(room, tmp_path, monkeypatch):
+    spare = tmp_path / "spare"
+    if room:
+        spare.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(spare))
+    store = LawStore(tmp_path / "laws")
+    store.path(MODEL).mkdir(parents=True)
+    with pytest.raises(InputError, match="laws cannot be written to") as caught:
+        store.keep(MODEL, law())
+    (problem,) = caught.value.problems
+    if room:
+        (kept,) = spare.glob("*/*.law.yaml")
+        assert str(kept) in problem.todo
+        assert read_law(kept.read_text(encoding="utf-8")) == law()
+    else:
+        assert "--store" in problem.todo
+
+
+def test_a_picture_that_cannot_be_written_costs_no_law(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr("crumple.report.figures.shape.deformation", lambda _: "<svg/>")
+    (tmp_path / "a.law.svg").mkdir()
+    _picture(SimpleNamespace(result=None), tmp_path / "a.law.yaml")
+    assert "No picture: " in capsys.readouterr().err
+
+
+def test_a_file_of_the_store_that_is_no_text_is_refused(tmp_path):
+    store = LawStore(tmp_path)
+    store.path(MODEL).write_bytes(b"\x9e\x8b")
+    with pytest.raises(InputError, match="not a text in UTF-8"):
+        store.law(MODEL)

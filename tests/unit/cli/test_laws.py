@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 from crumple.analysis import load
 from crumple.cli.console.laws import range_lines
 from crumple.cli.main import app
+from crumple.errors import InputError
 from crumple.hinge.measured.place_hash import place_hash
 from crumple.result.nearby import LawRange
 
@@ -55,6 +56,38 @@ def test_layouts_use_and_freeze_stores_too(tmp_path):
 def test_a_store_that_is_not_there_is_refused(tmp_path):
     found = run("run", FRAME, "--laws", tmp_path / "none", "--out", tmp_path / "a")
     assert found.exit_code != 0
+    assert not (tmp_path / "a").exists()
+
+
+def test_a_law_without_a_checksum_is_used_and_says_so(tmp_path):
+    store = corner_store(tmp_path)
+    for file in store.iterdir():
+        lines = file.read_text(encoding="utf-8").splitlines(True)
+        file.write_text("".join(line for line in lines if not line.startswith("checksum")), encoding="utf-8")
+    found = run("run", FRAME, "--laws", store, "--out", tmp_path / "a", "--no-law-range", "--no-modes")
+    assert found.exit_code == 0, found.output
+    assert f"Store of laws: {store}, 1 used, 1 without a checksum (edited, or" in found.output
+    assert "Law of corner-corner: stored, from shells, without a checksum" in found.output
+    summary = json.loads((tmp_path / "a" / "summary.json").read_text(encoding="utf-8"))
+    sure = {name: hinge["law_use"]["has_checksum"] for name, hinge in summary["hinges"].items()}
+    assert sure == {"post-foot": True, "corner-corner": False}
+
+
+def test_a_store_without_a_law_for_the_structure_says_so(tmp_path):
+    store = store_of(tmp_path / "laws", law_text("0" * 16))
+    found = run("run", FRAME, "--laws", store, "--out", tmp_path / "a", "--no-law-range", "--no-modes")
+    assert found.exit_code == 0, found.output
+    assert "0 used: it has no law that a hinge of this structure could use" in found.output
+    assert f"`crumple characterise {FRAME} --list`" in found.output
+
+
+def test_a_file_for_frozen_laws_that_cannot_be_written_is_refused_with_what_to_do(tmp_path):
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    found = run("run", FRAME, "--freeze-laws", tmp_path / "file" / "f.yaml", "--out", tmp_path / "a")
+    assert isinstance(found.exception, InputError)
+    (problem,) = found.exception.problems
+    assert "cannot be written: a file has this name" in problem.what
+    assert (problem.todo, problem.where) == ("choose another file", "--freeze-laws")
     assert not (tmp_path / "a").exists()
 
 

@@ -115,8 +115,6 @@ class SpatialRecord(SpatialRows):
         Resultant of contact on every obstacle in world axes, (n, obstacles, 3).
     summary
         Of the whole run.
-    peaks
-        Per component: largest absolute rotation, moment, (c, 2).
     ended_by
         Index of the condition that ended the run, -1 for none.
     stuck_body
@@ -132,7 +130,6 @@ class SpatialRecord(SpatialRows):
     joint_force: Floats
     obstacle_force: Floats
     summary: HingeSummary
-    peaks: Floats
     outcome: Outcome
     reason: str
     ended_by: int

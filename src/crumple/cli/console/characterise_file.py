@@ -171,7 +171,7 @@ def _missing(every: Sequence[Needed], store: Path, converge: bool) -> list[Neede
 
     stored = {
         place: read_law(text)
-        for place, text in (by_place(read_store(store)) if store.is_dir() else {}).items()
+        for place, text in (by_place(read_store(store, filling=True)) if store.is_dir() else {}).items()
     }
 
     def lacks(one: Needed) -> bool:
@@ -183,12 +183,15 @@ def _missing(every: Sequence[Needed], store: Path, converge: bool) -> list[Neede
 
 def _solve(missing: list[Needed], store: Path, workers: int, converge: bool) -> bool:
     """Solve what is missing; returns whether every law was found."""
+    from crumple.characterisation import LawStore
     from crumple.characterisation.parallel import characterise_all
     from crumple.cli.console.progress import progress_bar
     from crumple.portable import stop_on_interrupt
 
     shares, weights = [0.0] * len(missing), [one.seconds() for one in missing]
     found = failed = 0
+    models = [one.model for one in missing]
+    LawStore(store).prepare(models)
     with stop_on_interrupt() as cancel, progress_bar("characterising") as bar:
 
         def progress(number: int, share: float) -> None:
@@ -197,7 +200,6 @@ def _solve(missing: list[Needed], store: Path, workers: int, converge: bool) -> 
             bar.describe(f"{found} of {len(missing)} laws, {whole:.0%}")
             bar(whole)
 
-        models = [one.model for one in missing]
         for done in characterise_all(
             models, store, workers=workers, converge=converge, progress=progress, cancel=cancel
         ):

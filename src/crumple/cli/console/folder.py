@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
@@ -11,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from crumple.cli.console.defect import defects_into
 from crumple.errors import InputError, Problem
-from crumple.portable import reader_left
+from crumple.portable import reader_left, refusal_of
 
 if TYPE_CHECKING:
     from filelock import BaseFileLock
@@ -104,9 +103,5 @@ def results_errors(folder: Path) -> Iterator[None]:
     except OSError as error:
         if reader_left(error) or isinstance(error, TimeoutError):
             raise
-        # libraries give their own text, with temporary names, in place of the system's reason
-        reason = os.strerror(error.errno) if error.errno else "the operating system refused"
-        if isinstance(error, FileExistsError | NotADirectoryError):
-            reason = "a file has this name, or the name of a folder above it"
-        what = f"the results cannot be written to {folder}: {reason}"
+        what = f"the results cannot be written to {folder}: {refusal_of(error)}"
         raise InputError(Problem(what, todo="choose another folder with --out")) from error

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -50,7 +50,7 @@ def write_frozen(sources: list[LoadedInput], file: Path) -> None:
     """Write the stored laws that inputs use to one file; its head lists the law of every hinge."""
     from crumple.errors import InputError, Problem
     from crumple.hinge.measured.library import frozen
-    from crumple.portable import replacing
+    from crumple.portable import refusal_of, replacing
     from crumple.structure import law_uses, used_texts, with_elastic_members
     from crumple.version import __version__
 
@@ -67,18 +67,31 @@ def write_frozen(sources: list[LoadedInput], file: Path) -> None:
         with replacing(file) as part:
             part.write_text(frozen(texts, notes), encoding="utf-8")
     except OSError as error:
-        raise InputError(Problem(f"the laws cannot be written: {error.strerror}", str(file))) from None
+        what, todo = f"the laws cannot be written: {refusal_of(error)}", "choose another file"
+        raise InputError(Problem(what, str(file), "", todo, "--freeze-laws")) from None
 
 
 def law_lines(result: Result, source: LoadedInput) -> Iterator[str]:
     """Store that was used, and the origin of every law; hinges with one law in one line."""
     store = source.analysis.structure.laws
     if store is not None:
-        yield f"Store of laws: {store.name}, {len(store.texts)} used"
+        yield f"Store of laws: {store.name}, {len(store.texts)} used{_of_store(store.texts, source.path)}"
     for sentence, names in grouped(result.hinges, str(source.path)).items():
         shown = ", ".join(names[:MOST_NAMES])
         more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
         yield f"Law of {shown}{more}: {sentence}"
+
+
+def _of_store(texts: Sequence[str], file: Path) -> str:
+    """What is unusual about the laws of a store that a structure uses."""
+    from crumple.hinge.measured.library import without_checksum
+    from crumple.portable import command_line
+
+    if not texts:
+        command = f"`crumple characterise {command_line(file)} --list`"
+        return f": it has no law that a hinge of this structure could use; {command} names those that could"
+    unsure = without_checksum(texts)
+    return f", {unsure} without a checksum (edited, or of an earlier version)" if unsure else ""
 
 
 def range_lines(result: Result) -> Iterator[str]:

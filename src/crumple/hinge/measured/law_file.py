@@ -1,18 +1,21 @@
 """The law file, format 1: one hinge law as readable YAML that is read back exactly.
 
 Every number carries its unit and is written with the digits that give the same float back; texts stand in
-double quotes.  Keys are documented in docs/law_file.md; unknown ones are refused.
+double quotes.  Keys are documented in docs/law_file.md; unknown ones are refused.  A checksum of the lines
+shows changes by accident; who changes a law on purpose deletes it, and the law then says so.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.band import Band
 from crumple.hinge.law import HingeLaw, SofteningVariable, Source, Trust, Validity
 from crumple.hinge.measured.law_group import Group
+from crumple.hinge.measured.place_hash import content_hash
 from crumple.hinge.measured.stored import StoredCurve, StoredLaw
 from crumple.hinge.rate import HingeRate
 from crumple.hinge.record.sampling import sampled_envelope
@@ -23,9 +26,14 @@ FORMAT = 1
 """Version of the format; a reader refuses others."""
 HEAD = """# A collapse law for Crumple: capacity of one plastic hinge against its rotation.
 # Read it with `law: {type: file, file: NAME}`; docs/law_file.md explains every key.
+# After a change by hand delete the line `checksum`: the file is refused with one that does not fit.
 """
+CHECKSUM = "checksum"
+"""Key of the hash of all lines of a file but comments and its own."""
+AGAIN = "restore the file, or write it again with `crumple characterise` or `crumple hinge --save`"
+"""What to do about a file that cannot be read."""
 _KEYS = (
-    *("crumple_law", "title", "law", "origin", "source", "range", "softening", "elastic_stiffness"),
+    *("crumple_law", CHECKSUM, "title", "law", "origin", "source", "range", "softening", "elastic_stiffness"),
     *("jamming_angle", "rate", "stop", "curve", "lower", "upper"),
 )
 _NONE = "none"
@@ -110,7 +118,19 @@ def write_law(law: StoredLaw) -> str:
     ]
     for name, edge in (("lower", law.lower), ("upper", law.upper)):
         lines += [] if edge is None else _curve_lines(name, edge, law)
+    if law.has_checksum:
+        lines.insert(1, f"{CHECKSUM}: {_quoted(checksum_of(lines))}")
     return HEAD + "\n".join(lines) + "\n"
+
+
+def checksum_of(lines: Iterable[str]) -> str:
+    """Hash of the lines of a law file without comments, empty ones, blanks at ends and the checksum's own.
+
+    Line ends and notes, which editors and version control change, do not count.
+    """
+    kept = (line.rstrip() for line in lines)
+    counted = (one for one in kept if one and not one.lstrip().startswith("#"))
+    return content_hash("\n".join(one for one in counted if not one.startswith(f"{CHECKSUM}:")))
 
 
 def read_law(text: str, file: str = "") -> StoredLaw:
@@ -131,14 +151,40 @@ def read_law(text: str, file: str = "") -> StoredLaw:
     Raises
     ------
     InputError
-        With file and line: not YAML, another format, a key that is missing, unknown or wrong.
+        With file and line: not YAML, another format, a key that is missing, unknown or wrong, or a content
+        that its checksum does not fit.
     """
+    try:
+        top = _top(text, file)
+        law = _law(top)
+        if CHECKSUM in top.entries and top.text(CHECKSUM) != checksum_of(text.splitlines()):
+            what = "the content of this law file was changed after it was written: its checksum does not fit"
+            todo = f"{AGAIN}; if the change is meant, delete the line `{CHECKSUM}`: results then say so"
+            top.refuse(top.take(CHECKSUM), what, "", todo, CHECKSUM)
+    except InputError as error:
+        told = [replace(one, todo=one.todo or AGAIN) for one in error.problems]
+        raise InputError(told) from None
+    return law
+
+
+def _top(text: str, file: str) -> Group:
+    """Keys of a law file of the known format."""
+    allowed = f"a file with the key crumple_law: {FORMAT}"
+    if not text.strip():
+        raise InputError(Problem("the law file is empty", "", allowed, AGAIN, file=file))
     top = Group(read_plain_yaml(text, file), file, 1, "")
+    if "crumple_law" not in top.entries:
+        raise InputError(Problem("this is not a law file", ", ".join(top.entries)[:60], allowed, file=file))
     version = top.take("crumple_law")
     if version.value != str(FORMAT):
-        todo = "create it again with `crumple hinge --save`"
+        todo = f"use the version of Crumple that wrote it; or {AGAIN}"
         top.refuse(version, "this is not a law file of a known format", f"crumple_law: {FORMAT}", todo)
     top.only(_KEYS)
+    return top
+
+
+def _law(top: Group) -> StoredLaw:
+    """Law of the keys of a file."""
     origin, source, limits = top.group("origin"), top.group("source"), top.group("range")
     origin.take("method")
     source.only(("citation", "trust", "note"))
@@ -170,6 +216,7 @@ def read_law(text: str, file: str = "") -> StoredLaw:
         lower,
         upper,
         slip,
+        CHECKSUM in top.entries,
     )
 
 

@@ -13,9 +13,10 @@ from functools import cache
 from pathlib import Path
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.measured.law_file import read_law
+from crumple.hinge.measured.law_file import AGAIN, read_law
 from crumple.hinge.measured.place_hash import CORNER, JOINT, PLACE, REVISION, content_hash
 from crumple.hinge.measured.stored import StoredCurve, StoredLaw
+from crumple.portable import refusal_of
 
 ENDING = ".law.yaml"
 """End of the name of a law file in a folder."""
@@ -23,17 +24,27 @@ BETWEEN = "---"
 """Line between the laws of one file."""
 LARGEST = 2_000_000
 """Bytes of one file; more than any law needs."""
+FROZEN = "# Hinge laws of one analysis"
+"""Begin of a file with several laws; it has none if the analysis used formulas alone."""
 MOST_LAWS = 2_000
 """Laws in one store."""
 
 
-def read_store(path: Path) -> tuple[str, ...]:
+def read_store(path: Path, *, filling: bool = False) -> tuple[str, ...]:
     """Texts of all laws with a place in a folder or in a file, sorted.
+
+    Parameters
+    ----------
+    path
+        Folder or file.
+    filling
+        Whether laws are to be added, so that none need be there.
 
     Raises
     ------
     InputError
-        If there is no such folder or file, it is too large, or one of its laws cannot be read.
+        If there is no such folder or file, it is too large, it has no law with a place, or one of its laws
+        cannot be read.
     """
     if not path.exists():
         todo = "give a folder of law files, or a file of --freeze-laws; crumple characterise writes laws"
@@ -41,16 +52,39 @@ def read_store(path: Path) -> tuple[str, ...]:
     files = sorted(path.glob(f"*{ENDING}")) if path.is_dir() else [path]
     texts: dict[str, None] = {}
     problems: list[Problem] = []
+    without_place = 0
     for file in files:
         try:
-            texts |= dict.fromkeys(one for one in _laws_in(file) if place_of(_law(one)) is not None)
+            found = _laws_in(file)
+            own = [one for one in found if place_of(_law(one)) is not None]
+            without_place += len(found) - len(own)
+            texts |= dict.fromkeys(own)
         except InputError as error:
             problems += error.problems[:1]
     if problems:
         raise InputError(problems)
     if len(texts) > MOST_LAWS:
         raise InputError(Problem("the store has too many laws", f"{len(texts)}", f"at most {MOST_LAWS}"))
+    if not (texts or filling):
+        _refuse_unused(path, files, without_place)
     return tuple(sorted(texts))
+
+
+def _refuse_unused(path: Path, files: list[Path], without_place: int) -> None:
+    """Refuse a store of which no structure can use anything."""
+    if without_place:
+        what, todo = "no law of this store says for which place it is", "name the law in the input instead"
+        allowed = "laws of `crumple characterise`"
+        raise InputError(Problem(what, str(path), allowed, f"{todo}: `law: {{type: file, file: NAME}}`"))
+    if not files:
+        what, allowed = "there is no law file in this folder", f"files with names that end in {ENDING}"
+        todo = "give the folder that `crumple characterise` wrote to, or leave it out"
+        raise InputError(Problem(what, str(path), allowed, todo))
+
+
+def without_checksum(texts: Iterable[str]) -> int:
+    """Number of laws that somebody may have changed: their files have no checksum."""
+    return sum(not _law(text).has_checksum for text in texts)
 
 
 def frozen(texts: Iterable[str], notes: Iterable[str] = ()) -> str:
@@ -63,7 +97,7 @@ def frozen(texts: Iterable[str], notes: Iterable[str] = ()) -> str:
     notes
         Lines for people at its beginning.
     """
-    head = ["# Hinge laws of one analysis; use them with `--laws THIS_FILE`.", *(f"# {one}" for one in notes)]
+    head = [f"{FROZEN}; use them with `--laws THIS_FILE`.", *(f"# {one}" for one in notes)]
     return "\n".join(head) + "\n" + "".join(f"{BETWEEN}\n{text}" for text in sorted(set(texts)))
 
 
@@ -123,20 +157,41 @@ def _rank(text: str) -> tuple[int, bool, float]:
 
 def _laws_in(file: Path) -> list[str]:
     """Texts of the laws of one file, each checked."""
-    try:
-        if file.stat().st_size > LARGEST:
-            raise InputError(Problem("the file of laws is too large", str(file), f"{LARGEST / 1e6:g} MB"))
-        content = file.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(Problem(f"the law file cannot be read: {error}", str(file))) from None
+    content = content_of(file)
     found, own = [], []
-    for line in [*content.splitlines(), BETWEEN]:
+    for number, line in enumerate([*content.splitlines(), BETWEEN]):
         if line.rstrip() != BETWEEN:
             own.append(line)
             continue
         if any(one.strip() and not one.lstrip().startswith("#") for one in own):
-            found.append("\n".join(own) + "\n")
+            text = "\n".join(own) + "\n"
+            # empty lines in place of the laws before it: errors name the line of the file
+            read_law("\n" * (number - len(own)) + text, str(file))
+            found.append(text)
         own = []
-    for text in found:
-        read_law(text, str(file))
+    if not (found or content.startswith(FROZEN)):
+        read_law("", str(file))
     return found
+
+
+def content_of(file: Path) -> str:
+    """Text of a file of laws.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read, is too large, or is no text.
+    """
+    try:
+        with file.open("rb") as opened:
+            content = opened.read(LARGEST + 1)
+        if len(content) > LARGEST:
+            allowed, todo = f"at most {LARGEST / 1e6:g} MB", "give a file that Crumple wrote"
+            raise InputError(Problem("the file of laws is too large", "", allowed, todo, file=str(file)))
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        what, allowed = "the law file is not a text in UTF-8", "a law file that Crumple wrote"
+        raise InputError(Problem(what, "", allowed, AGAIN, file=str(file))) from None
+    except OSError as error:
+        what = f"the law file cannot be read: {refusal_of(error)}"
+        raise InputError(Problem(what, "", "", AGAIN, file=str(file))) from None

@@ -6,7 +6,7 @@ with source, range, band, rate and stop.  See crumple.hinge.measured.law_file fo
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 import numpy as np
@@ -64,6 +64,8 @@ class StoredLaw:
     slip
         Whether it is a law along the member: force [N] in place of moment, lengthening (negative sense:
         shortening) [m] in place of rotation.
+    has_checksum
+        Whether its file shows that it is as a program wrote it; without, somebody may have changed it.
 
     References
     ----------
@@ -87,6 +89,7 @@ class StoredLaw:
     lower: StoredCurve | None = None
     upper: StoredCurve | None = None
     slip: bool = False
+    has_checksum: bool = field(default=True, compare=False)
 
     def at(self, bound: Bound) -> StoredLaw:
         """Law of a bound: the stored curve, or the nominal one times 1 -+ the uncertainty."""

@@ -32,7 +32,7 @@ class HingeHistory:
         rotations, and the components come beside: ``rotation.y`` and so on, and of one along the axis x
         ``slip.x.travel``, ``.rate``, ``.plastic_travel``, ``.force`` and ``.capacity``.
     rotation_max, moment_max
-        Largest magnitudes [rad], [N m].
+        Largest magnitudes of the columns ``rotation`` [rad] and ``moment`` [N m], over all steps.
     time_of_rest
         After which its plastic rotation no longer changed [s]; None: still turning.
     energy

@@ -77,6 +77,6 @@ def with_held_moments(
         capacity = record.hinge.capacity[:, span]
         moment[:, span] = np.clip(moment[:, span] + held, -capacity, capacity)
         turning = moment[:, span][:, np.array(free) >= 3]
-        largest[k] = max(largest[k], np.abs(turning).max(initial=0.0))
+        largest[k] = max(largest[k], np.linalg.norm(turning, axis=1).max(initial=0.0))
     hinge, summary = replace(record.hinge, moment=moment), replace(record.summary, moment_max=largest)
     return replace(record, hinge=hinge, summary=summary, joint_force=force)

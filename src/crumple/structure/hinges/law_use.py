@@ -11,6 +11,7 @@ from typing import TypeVar
 from crumple.errors import InputError
 from crumple.hinge import HingeLaw, HingeRecord
 from crumple.hinge.bending.dented import DentedLaw
+from crumple.hinge.inside import LawInside
 from crumple.hinge.law_use import INPUT, LawUse, Origin
 from crumple.hinge.measured.library import place_of
 from crumple.hinge.measured.place_hash import LENGTH, content_hash
@@ -97,7 +98,14 @@ def law_use(structure: StructureParts, place: HingePlace, law: HingeLaw, record:
     )
     if origin == "stored" and better:
         better += " --converge"
-    return LawUse(origin, content, band, better)
+    return LawUse(origin, content, band, better, _has_checksum(law))
+
+
+def _has_checksum(law: HingeLaw) -> bool:
+    """Whether nobody changed the law of a file; laws of no file have nothing to change."""
+    while isinstance(law, LawInside):
+        law = law.law
+    return not isinstance(law, StoredLaw) or law.has_checksum
 
 
 def stored_text_of(structure: StructureParts, place: HingePlace, law: HingeLaw) -> str | None:

@@ -53,7 +53,8 @@ def _read(given: Any, info: ValidationInfo) -> Any:
         what, todo = "this store lies outside the folder of the input file", "copy it there, or use --laws"
         refuse(what, allowed="a folder or file in the folder of the input file, or below it", todo=todo)
     try:
-        return StoredLaws(name=given, texts=read_store(path))
+        # may be empty: the laws that this input needs are what `crumple characterise` adds
+        return StoredLaws(name=given, texts=read_store(path, filling=True))
     except InputError as error:
         refuse("the store of laws cannot be read", problems=error.problems[:10])
 

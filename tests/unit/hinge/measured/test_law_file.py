@@ -196,3 +196,42 @@ def test_missing_keys_are_named():
         read_law(GOOD.replace("jamming_angle: none\n", ""))
     with pytest.raises(InputError, match="no method"):
         stored_law(LAWS[0], {})
+
+
+def test_a_change_of_the_content_is_found_by_the_checksum():
+    changed = GOOD.replace("1000.0]", "1001.0]")
+    with pytest.raises(InputError, match="was changed after it was written") as caught:
+        read_law(changed, "law.yaml")
+    problem = caught.value.problems[0]
+    assert (problem.file, problem.line) == ("law.yaml", line_of("checksum:"))
+    assert "delete the line `checksum`" in problem.todo
+    # who means it deletes the line, and the law says so, also when it is written again
+    edited = "".join(line for line in changed.splitlines(True) if not line.startswith("checksum"))
+    law = read_law(edited)
+    assert float(law.moment_capacity(0.0)) == 1001.0
+    assert not law.has_checksum
+    assert write_law(law) == edited
+    assert read_law(GOOD).has_checksum
+
+
+def test_notes_line_ends_and_empty_lines_are_no_change_of_the_content():
+    noted = GOOD.replace("title:", "# a note\n\n  # another\ntitle:").replace("\n", " \r\n")
+    assert read_law(noted) == read_law(GOOD)
+    assert read_law(noted).has_checksum
+
+
+@pytest.mark.parametrize(
+    ("text", "what"),
+    [
+        ("", "the law file is empty"),
+        (" \n", "the law file is empty"),
+        ("a: 1", "this is not a law file"),
+        ("crumple_law: 7", "not a law file of a known format"),
+        (GOOD[:300], "is missing|not YAML"),
+        (GOOD.replace("softening: peak\n", ""), "softening is missing"),
+    ],
+)
+def test_every_refusal_of_a_law_file_says_what_to_do(text, what):
+    with pytest.raises(InputError, match=what) as caught:
+        read_law(text, "law.yaml")
+    assert all(one.todo and one.file == "law.yaml" for one in caught.value.problems)

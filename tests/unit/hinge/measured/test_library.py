@@ -7,7 +7,14 @@ from tests.support.stored_laws import law_text, store_of
 
 from crumple.errors import InputError
 from crumple.hinge.measured.law_file import read_law, stored_law, write_law
-from crumple.hinge.measured.library import by_place, frozen, is_of_joint, mirrored, read_store
+from crumple.hinge.measured.library import (
+    by_place,
+    frozen,
+    is_of_joint,
+    mirrored,
+    read_store,
+    without_checksum,
+)
 from crumple.hinge.measured.place_hash import place_hash
 from crumple.hinge.registry import build_law
 from crumple.material import Material
@@ -68,3 +75,63 @@ def test_stores_that_cannot_be_read_are_refused_with_their_file(tmp_path):
     with pytest.raises(InputError, match="known format") as error:
         read_store(folder)
     assert error.value.problems[0].file.endswith("1.law.yaml")
+
+
+@pytest.mark.parametrize(
+    ("content", "what"),
+    [
+        (b"", "is empty"),
+        (b"# A collapse law\n", "is empty"),
+        (b"\x9e\x8b\x12", "not a text in UTF-8"),
+        (b"a: 1", "not a law file"),
+        (None, "cannot be read: Is a directory"),
+    ],
+)
+def test_a_file_of_a_store_that_holds_no_law_is_named(content, what, tmp_path):
+    folder = store_of(tmp_path / "laws", law_text("a"))
+    bad = folder / "bad.law.yaml"
+    if content is None:
+        bad.mkdir()
+    else:
+        bad.write_bytes(content)
+    with pytest.raises(InputError, match=what) as caught:
+        read_store(folder)
+    (problem,) = caught.value.problems
+    assert problem.file == str(bad)
+    assert problem.todo
+
+
+def test_a_store_of_which_nothing_can_be_used_is_refused(tmp_path):
+    empty = store_of(tmp_path / "laws")
+    (empty / "notes.txt").write_text("", encoding="utf-8")
+    with pytest.raises(InputError, match="no law file in this folder") as caught:
+        read_store(empty)
+    assert caught.value.problems[0].todo
+    assert read_store(empty, filling=True) == ()
+    own = write_law(stored_law(build_law("kecman", TUBE, STEEL), {"method": "formula"}))
+    with pytest.raises(InputError, match="for which place it is") as caught:
+        read_store(store_of(tmp_path / "own", own))
+    assert "law: {type: file" in caught.value.problems[0].todo
+
+
+def test_a_file_that_froze_formulas_alone_has_no_laws(tmp_path):
+    file = tmp_path / "frozen.yaml"
+    file.write_text(frozen([], ["hinge h: formula"]), encoding="utf-8")
+    assert read_store(file) == ()
+
+
+def test_a_law_of_several_in_a_file_is_refused_at_its_line(tmp_path):
+    texts = [law_text("a"), law_text("b").replace("400.0", "401.0")]
+    file = tmp_path / "frozen.yaml"
+    file.write_text(frozen(texts), encoding="utf-8")
+    with pytest.raises(InputError, match="checksum does not fit") as caught:
+        read_store(file)
+    (problem,) = caught.value.problems
+    assert file.read_text(encoding="utf-8").splitlines()[problem.line - 1] == f'checksum: "{problem.came}"'
+    assert problem.came in texts[1]
+
+
+def test_laws_without_a_checksum_are_counted():
+    sure = law_text("a")
+    edited = "".join(line for line in sure.splitlines(True) if not line.startswith("checksum"))
+    assert without_checksum([sure, edited]) == 1

@@ -5,9 +5,12 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from tests.support.multibody.frames import member, structure
 
-from crumple._core.records import ComponentRecord, EnergyRecord, HingeEnergyRecord
+from crumple._core.records import ComponentRecord, EnergyRecord, HingeEnergyRecord, HingeSummary
+from crumple.multibody import Run, solve_multibody
 from crumple.multibody.answer.hinge_histories import RecordedHinge, hinge_columns, ledger
+from crumple.multibody.spatial.off_dead_centres import with_held_moments
 from crumple.result.channels import channel
 
 TIMES, COMPONENTS, HINGES = 3, 4, 2
@@ -95,3 +98,37 @@ def test_the_ledger_adds_up(rows):
     np.testing.assert_array_equal(found["dissipated"], rows.hinge_energy.dissipated.sum(axis=1))
     assert {"contact", "friction", "damping"} <= set(found)
     assert not {"contact", "friction", "damping"} & set(ledger(rows))
+
+
+def test_the_largest_moment_is_the_length_of_the_vector_that_the_channel_has():
+    # thrown about both axes: each component is less than the vector
+    both = {"axis": None, "axes": ("y", "z")}
+    thrown = [{"rotation": 10.0, "axis": (0.0, 1.0, 1.0)}]
+    bar = structure(members={"ab": member("a", "b", ("h", "a", both))}, initial_velocity=thrown)
+    result = solve_multibody(bar, Run(0.02, 1e-3))
+    hinge, channels = result.hinges["h"], [result[f"hinge.h.moment{end}"] for end in ("", ".y", ".z")]
+    whole, *parts = (np.abs(values).max() for values in channels)
+    assert hinge.moment_max == pytest.approx(whole, rel=1e-3)
+    assert hinge.moment_max > 1.1 * max(parts)
+    assert hinge.rotation_max == pytest.approx(np.abs(result["hinge.h.rotation"]).max(), rel=1e-3)
+
+
+@dataclass(frozen=True)
+class Held:
+    hinge: ComponentRecord
+    summary: HingeSummary
+    joint_force: np.ndarray
+
+
+def test_the_moment_that_holds_a_hinge_at_a_dead_centre_is_added_as_a_vector():
+    none, held = np.zeros((1, 2)), np.zeros((1, 2, 6))
+    moment, held[0, 1, 5] = np.array([[30.0, 0.0]]), -40.0
+    record = Held(
+        ComponentRecord(none, none, none, moment, np.full((1, 2), 500.0)),
+        HingeSummary(*(np.array([30.0]) for _ in HingeSummary.__dataclass_fields__)),
+        held,
+    )
+    linkage = SimpleNamespace(connections=[SimpleNamespace(hinge=HINGE, free=(4, 5))])
+    found = with_held_moments(record, linkage, SimpleNamespace(component_offsets=[0, 2]), {0: 1})
+    np.testing.assert_array_equal(found.hinge.moment, [[30.0, 40.0]])
+    assert found.summary.moment_max == pytest.approx([50.0])
