@@ -226,6 +226,18 @@ def test_a_corner_in_space_turns_as_in_the_multibody_solver(first, ends):
     assert "corner-b" in [opening.hinge for opening in moved.collapse]
 
 
+def test_a_corner_and_a_hinge_of_its_second_member_meet_halfway():
+    given = corner().model_dump()
+    given["nodes"]["c"] = (0.12, 0.0, 0.4)
+    given |= {"initial_velocity": [{"nodes": ["b"], "translation": (0.0, 6.0, 0.0)}], "masses": {}}
+    given["supports"]["far"] = {"node": "c", "fix": "all"}
+    zones = {
+        zone.place.name: zone for zone in lower(Structure(**given), ShellSettings(element_size=8e-3)).zones
+    }
+    assert zones["corner-b"].spans[1].member == "two"
+    assert zones["corner-b"].spans[1].last == zones["two-c"].spans[0].first
+
+
 def test_a_corner_in_a_plane_is_measured_in_its_own_member():
     flat = corner(velocity=(0.0, 0.0, -6.0))
     zone = next(zone for zone in lower(flat, COARSE).zones if zone.place.name == "corner-b")
