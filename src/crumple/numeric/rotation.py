@@ -62,6 +62,22 @@ def _together(x: Floats, y: Floats, z: Floats) -> Floats:
     return vectors
 
 
+def relative_vector(first: Floats, second: Floats) -> Floats:
+    """Rotation vector of one section against another over time, in axes that move with the first.
+
+    Parameters
+    ----------
+    first, second
+        Rotations from the start, (n, 3, 3) each.
+
+    Returns
+    -------
+    NDArray
+        Without the jump at half a turn [rad], (n, 3).
+    """
+    return continuous(rotation_vector(np.swapaxes(first, -1, -2) @ second))
+
+
 def relative_rotation(first: Floats, second: Floats, direction: Floats) -> Floats:
     """Rotation of one section against another about an axis that moves with the first.
 
@@ -77,9 +93,8 @@ def relative_rotation(first: Floats, second: Floats, direction: Floats) -> Float
     NDArray
         Part of the relative rotation vector along the axis [rad], (n,).
     """
-    relative = np.swapaxes(first, -1, -2) @ second
-    turned: Floats = continuous(rotation_vector(relative)) @ direction
-    return turned
+    about: Floats = relative_vector(first, second) @ direction
+    return about
 
 
 def quaternion_vector(quaternion: Floats) -> Floats:

@@ -11,7 +11,8 @@ from crumple._core.shell.simulation import ShellState
 from crumple.errors import InputError, Problem, Status
 from crumple.numeric.arrays import Floats
 from crumple.result import Channel, Provenance, Result, missing_pictures
-from crumple.shell.answer.histories import channels_of, summaries
+from crumple.shell.answer.hinge_histories import OPEN, hinge_histories, openings, summaries
+from crumple.shell.answer.histories import channels_of
 from crumple.shell.answer.record import ENERGIES, Record, Sampler
 from crumple.shell.answer.shapes import states_of
 from crumple.shell.checks import trust
@@ -103,6 +104,7 @@ def _result(structure: Structure, run: ShellRun, stepping: Stepping, status: Sta
     if not len(record):
         record.add({"at": np.array(0.0), **stepping.sampler.sample(ShellState(case.model))})
     channels = channels_of(structure, stepping.sampler, record, run.outputs)
+    hinges = hinge_histories(stepping.sampler, record)
     asked = {*run.outputs.section_rotations, *run.outputs.distances, *run.outputs.clearances}
     prefixes = tuple(f"node.{name}." for name in run.outputs.nodes)
     times = stepping.times
@@ -113,7 +115,7 @@ def _result(structure: Structure, run: ShellRun, stepping: Stepping, status: Sta
         title=run.title,
         time=times,
         channels={channel.name: _at(channel, times, record["time"]) for channel in channels},
-        hinges=summaries(stepping.sampler, record),
+        hinges=summaries(stepping.sampler, record, hinges),
         states=states_of(case.mesh, record),
         energy_residual=trust.energy_residual(record),
         solve_seconds=stepping.seconds,
@@ -123,6 +125,8 @@ def _result(structure: Structure, run: ShellRun, stepping: Stepping, status: Sta
         + tuple(missing_pictures(run.outputs.pictures, float(times[-1]))),
         assumptions=trust.assumptions(structure, case, run.settings),
         provenance=Provenance("", "", state.isa, run.threads, _settings(run, case, state, record)),
+        collapse=openings(record["time"], hinges),
+        collapse_threshold=OPEN,
         stages=stepping.ended if run.stages else (),
         output_names=tuple(
             channel.name for channel in channels if channel.name in asked or channel.name.startswith(prefixes)

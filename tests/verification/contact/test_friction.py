@@ -6,9 +6,9 @@ after 2v/(7 mu g), a solid rod at 2/3 v after v/(3 mu g).  Friction uses the nor
 step; a test measures the error of frozen limits.
 
 A ball of mass M that is guided vertically falls at the speed v on a bar of inertia I about a hinge on its
-axis, at a distance s from the hinge.  The fold there is 2 H long.  Along the bar, the wall slides past the ball
-with the share min(s/H, 1) of its turning about the axis at the radius r, and friction takes hold by the same
-lever.  With w the rate of the bar after the blow, the impulse P follows from
+axis, at a distance s from the hinge.  The fold there is 2 H long.  Along the bar, the wall slides past the
+ball with the share min(s/H, 1) of its turning about the axis at the radius r, and friction takes hold by the
+same lever.  With w the rate of the bar after the blow, the impulse P follows from
 
     v - P/M = s w,  I w = P (s - mu r min(s/H, 1))   =>   P = v/(1/M + s (s - mu r min(s/H, 1))/I).
 

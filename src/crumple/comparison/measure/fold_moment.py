@@ -19,7 +19,8 @@ ELASTIC_WORK = 0.01
 class Bent:
     """Rotation [rad] and plastic work [J] of a fold over time [s], and its elastic stiffness [N m/rad].
 
-    `axes` are the unit vectors, (n, 3), about which a hinge about two axes turned, else None.
+    `axes` are the unit vectors, (n, 3), about which a hinge about two axes turned, else None.  `axis` is the
+    axis of the hinge about which the rotation is, None where it is the angle about any.
     """
 
     times: Floats
@@ -27,12 +28,15 @@ class Bent:
     work: Floats
     stiffness: float
     axes: Floats | None = None
+    axis: str | None = None
 
 
 def moment_in(result: Result, name: str, bent: Bent) -> tuple[Floats, str]:
     """Moment of a hinge by name, in the sense of the rotation [N m], and its origin in words."""
     if bent.axes is None:
-        found = _histories(result, [f"hinge.{name}.moment"], bent.times)
+        # of a hinge that also twists, the channel without an axis is the length of a vector
+        own = f"hinge.{name}.moment.{bent.axis}"
+        found = _histories(result, [own if own in result.channels else f"hinge.{name}.moment"], bent.times)
     else:
         found = _histories(result, [f"cut.{name}.moment.{axis}" for axis in "xyz"], bent.times)
     if found is not None:

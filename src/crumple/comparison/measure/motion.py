@@ -280,9 +280,9 @@ def _measure(result: Result, structure: Structure, own: Sections, site: _Site) -
     rotation = own.bend(first, last) if two_ways else own.relative_rotation(hinge.direction, first, last)
     stiffness = _stiffness(structure, own, site)
     work = _work(result, own.times, fold)
-    # the result's channel is about one axis
-    axes = own.bend_axes(first, last) if two_ways else None
-    moment, origin = moment_in(result, hinge.name, Bent(own.times, rotation, work, stiffness, axes))
+    # along the axis of the bend: the hinge's own channels contain its twist
+    axes, axis = (own.bend_axes(first, last), None) if two_ways else (None, hinge.axis)
+    moment, origin = moment_in(result, hinge.name, Bent(own.times, rotation, work, stiffness, axes, axis))
     plastic = rotation - moment / stiffness if fold is not None else np.zeros_like(rotation)
     elastic = work < ELASTIC_WORK * max(float(work.max(initial=0.0)), 1e-300)
     plastic = np.where(elastic, 0.0, plastic)

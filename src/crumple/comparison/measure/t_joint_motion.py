@@ -78,10 +78,11 @@ def _measured(
 ) -> HingeMotion:
     starts = structure.members[joint.branch].nodes[0] == joint.node
     turns = {axis: _rotation(seen, structure, joint, axis) * (1.0 if starts else -1.0) for axis in AXES}
-    rotation = np.hypot(*turns.values()) if bends_two_ways(hinge) else turns[hinge.axis]
+    axis = None if bends_two_ways(hinge) else hinge.axis
+    rotation = np.hypot(*turns.values()) if axis is None else turns[axis]
     work = _work(seen, result, structure, joint)
     stiffness = _stiffness(structure, joint, hinge)
-    moment, origin = moment_in(result, hinge.name, Bent(motion.time, rotation, work, stiffness))
+    moment, origin = moment_in(result, hinge.name, Bent(motion.time, rotation, work, stiffness, axis=axis))
     yielded = work >= ELASTIC_WORK * max(float(work.max(initial=0.0)), 1e-300)
     return replace(
         motion,

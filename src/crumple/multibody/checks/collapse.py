@@ -22,6 +22,7 @@ import numpy as np
 from crumple.hinge import Envelope, HingeRecord
 from crumple.multibody.answer.solved import HingeHistory
 from crumple.numeric.arrays import Floats
+from crumple.numeric.crossing import first_above
 from crumple.result import Opening
 from crumple.structure import PlacedHinge
 from crumple.text.names import listed
@@ -56,12 +57,9 @@ def collapse_log(hinges: Sequence[HingeHistory], time: np.ndarray) -> tuple[tupl
     threshold = min(OPEN, OPEN_SHARE * largest)
     openings = []
     for history, values in zip(hinges, turned, strict=True):
-        above = np.flatnonzero(values > threshold)
-        if not len(above):
+        when = first_above(time, values, threshold)
+        if when is None:
             continue
-        i = int(above[0])
-        share = 1.0 if i == 0 else float((threshold - values[i - 1]) / (values[i] - values[i - 1]))
-        when = float(time[i]) if i == 0 else float(time[i - 1] + share * (time[i] - time[i - 1]))
         final = float(history.values("plastic_rotation")[-1])
         broke = history.fracture[0] if history.fracture else None
         openings.append(Opening(history.hinge.name, when, final, history.energy, broke))

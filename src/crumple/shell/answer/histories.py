@@ -1,4 +1,4 @@
-"""From the record of a shell run to named channels and summaries."""
+"""From the record of a shell run to named channels."""
 
 from __future__ import annotations
 
@@ -9,15 +9,13 @@ import numpy as np
 from crumple.numeric.arrays import Floats
 from crumple.numeric.ranking import largest_first
 from crumple.numeric.rotation import continuous, relative_rotation, rotation_vector
-from crumple.result import Channel, HingeSummary
+from crumple.result import Channel
 from crumple.result.channels import channel, channels_along
-from crumple.shell.answer.record import ENERGIES, IMPULSE, Record, Sampler
+from crumple.shell.answer.hinge_histories import hinge_channels
+from crumple.shell.answer.record import ENERGIES, IMPULSE, Record, Sampler, slope
 from crumple.shell.answer.weld_histories import weld_channels
-from crumple.shell.model.places import HingeZone
 from crumple.structure import Outputs, Structure
 
-AT_REST = 2e-3
-"""Share of a hinge's plastic work that may follow after its time of rest: vibration adds as much."""
 CHANNEL_NAMES = {"plastic": "dissipated"}
 """Names of the energies where the stepper's differ from the result's."""
 
@@ -44,40 +42,6 @@ def energy_channels(record: Record) -> Iterator[Channel]:
         if name in ("damping", "eroded") and not energy[:, i].any():
             continue
         yield channel(f"energy.{CHANNEL_NAMES.get(name, name)}", energy[:, i].copy())
-
-
-def hinge_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:
-    """Rotation between the sections on both sides, moment in the cut, plastic work between."""
-    for k, zone in enumerate(sampler.case.zones):
-        rotation, moment, energy = hinge_history(sampler, record, k, zone)
-        columns = {
-            "rotation": rotation,
-            "rotation_rate": _slope(rotation, record["time"]),
-            "plastic_rotation": rotation - moment / zone.stiffness,
-            "moment": moment,
-            "energy": energy,
-        }
-        yield from (channel(f"hinge.{zone.place.name}.{name}", values) for name, values in columns.items())
-
-
-def hinge_history(
-    sampler: Sampler, record: Record, number: int, zone: HingeZone
-) -> tuple[Floats, Floats, Floats]:
-    """Rotation [rad], moment [N m] and plastic work [J] of one hinge, (n,) each.
-
-    The moment is what the second side exerts on the first, about the axis as the first section carries it: it
-    has the sign of the rotation that it drives.
-    """
-    first, last = (ring_history(sampler, record, zone.place.member, ring) for ring in (zone.first, zone.last))
-    rotation = relative_rotation(first, last, zone.direction)
-    axis = first @ zone.direction
-    moment = np.einsum("ti,ti->t", record["cut"][:, number, 3:6], axis)
-    return rotation, moment, record["zone"][:, number]
-
-
-def ring_history(sampler: Sampler, record: Record, member: str, ring: int) -> Floats:
-    """Rotation of one section from the start over time, (n, 3, 3)."""
-    return record["ring"][:, sampler.rings.index((member, ring))]
 
 
 def cut_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:
@@ -116,12 +80,17 @@ def node_channels(sampler: Sampler, record: Record, outputs: Outputs) -> Iterato
         fields = {
             "displacement": motion[:, 0],
             "velocity": velocity,
-            "acceleration": _slope(velocity, record["time"]),
+            "acceleration": slope(velocity, record["time"]),
             "rotation": continuous(rotation_vector(motion[:, 3:])),
             "rotation_rate": motion[:, 2],
         }
         for quantity, values in fields.items():
             yield from channels_along(f"node.{name}.{quantity}", values)
+
+
+def ring_history(sampler: Sampler, record: Record, member: str, ring: int) -> Floats:
+    """Rotation of one section from the start over time, (n, 3, 3)."""
+    return record["ring"][:, sampler.rings.index((member, ring))]
 
 
 def section_channels(
@@ -162,34 +131,3 @@ def clearance_channels(sampler: Sampler, record: Record) -> Iterator[Channel]:
     """Least distance between a space that moves with a member and the others, negative inside."""
     for k, space in enumerate(sampler.case.spaces):
         yield Channel(space.name, "m", record["clearance"][:, k].copy())
-
-
-def summaries(sampler: Sampler, record: Record) -> dict[str, HingeSummary]:
-    """Summary of every hinge."""
-    found = {}
-    for k, zone in enumerate(sampler.case.zones):
-        rotation, moment, energy = hinge_history(sampler, record, k, zone)
-        found[zone.place.name] = HingeSummary(
-            rotation_max=float(np.abs(rotation).max()),
-            rotation_final=float(rotation[-1]),
-            time_of_rest=_rest(record["time"], energy),
-            energy=float(energy[-1]),
-            moment_max=float(np.abs(moment).max()),
-            position=tuple(float(value) for value in zone.position),  # type: ignore[arg-type]
-        )
-    return found
-
-
-def _rest(time: Floats, energy: Floats) -> float | None:
-    """Time after which almost no plastic work was done [s]; None if it continues at the end."""
-    final = float(energy[-1])
-    if final <= 0.0:
-        return 0.0
-    rest = int(np.argmax(energy >= (1.0 - AT_REST) * final))
-    return None if rest >= len(time) - 2 else float(time[rest])
-
-
-def _slope(values: Floats, time: Floats) -> Floats:
-    """Slope against time (n,); outputs nearer together than a time step were noted at one time."""
-    at, first, again = np.unique(time, return_index=True, return_inverse=True)
-    return np.asarray(np.gradient(values[first], at, axis=0))[again] if at.size > 1 else 0.0 * values

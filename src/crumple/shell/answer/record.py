@@ -49,7 +49,7 @@ class Sampler:
     @classmethod
     def of(cls, case: ShellCase, outputs: Outputs) -> Sampler:
         """Sampler of everything that the outputs and the hinges need."""
-        rings = [(zone.place.member, ring) for zone in case.zones for ring in (zone.first, zone.last)]
+        rings = [ring for zone in case.zones for ring in (zone.first, zone.last)]
         for asked in outputs.section_rotations.values():
             tube = case.mesh.tubes[asked.member]
             rings += [(asked.member, tube.ring_at(station)) for station in (asked.start, asked.end)]
@@ -168,3 +168,9 @@ class Record:
             if kind in ("rows", "shapes"):
                 getattr(record, kind)[name] = list(values)
         return record
+
+
+def slope(values: Floats, time: Floats) -> Floats:
+    """Slope against time (n, ...); outputs nearer together than a time step were noted at one time."""
+    at, first, again = np.unique(time, return_index=True, return_inverse=True)
+    return np.asarray(np.gradient(values[first], at, axis=0))[again] if at.size > 1 else 0.0 * values

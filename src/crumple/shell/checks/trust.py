@@ -17,6 +17,7 @@ from crumple.shell.model.bodies import Body, Lump
 from crumple.shell.model.metal import in_words
 from crumple.shell.model.model import ShellCase
 from crumple.shell.model.obstacles import too_sharp
+from crumple.shell.model.places import Span
 from crumple.structure import ShellSettings, Stage, Structure
 from crumple.structure.hinges.places import hinge_places
 
@@ -81,10 +82,9 @@ def assumptions(structure: Structure, case: ShellCase, settings: ShellSettings) 
             for a, b in member.rigid_parts(length)
         ]
     found += [
-        f"Hinge {zone.place.name} is represented by member {zone.place.member} from "
-        f"{_station(case, zone.place.member, zone.first)} to "
-        f"{_station(case, zone.place.member, zone.last)} mm: its rotation is that between the sections "
-        "there, its energy the plastic work of the walls between them."
+        f"Hinge {zone.place.name} is represented by "
+        f"{' and '.join(_span(case, span) for span in zone.spans)}: its rotation is that between the "
+        "sections there, its energy the plastic work of the walls between them."
         for zone in case.zones
     ]
     return tuple(found)
@@ -231,5 +231,6 @@ def _off_centre(case: ShellCase, body: Body, lump: Lump) -> float:
     return distance if distance > OFF_CENTRE * size else 0.0
 
 
-def _station(case: ShellCase, member: str, ring: int) -> str:
-    return f"{1e3 * float(case.mesh.tubes[member].stations[ring]):.3g}"
+def _span(case: ShellCase, span: Span) -> str:
+    first, last = (f"{1e3 * float(case.mesh.tubes[span.member].stations[ring]):.3g}" for ring in span[1:])
+    return f"member {span.member} from {first} to {last} mm"

@@ -126,6 +126,17 @@ def test_the_hinge_is_measured_across_its_fold():
     assert motion.plastic_rotation[-1] == pytest.approx(-(0.6 - MOMENT / stiffness))
 
 
+def test_the_moment_of_a_hinge_that_also_twists_is_that_about_its_bending_axis():
+    case, own = analysis(), folded_result(moment_channel=True)
+    bends = own.channels["hinge.root.moment"]
+    twisted = replace(bends, values=np.hypot(bends.values, 0.5 * MOMENT))
+    channels = {**own.channels, "hinge.root.moment": twisted}
+    channels["hinge.root.moment.y"] = replace(bends, name="hinge.root.moment.y")
+    hinges = placed_hinges(case.structure)
+    seen = measured(replace(own, channels=channels), case.structure, hinges).hinges[0]
+    np.testing.assert_array_equal(seen.moment, measured(own, case.structure, hinges).hinges[0].moment)
+
+
 def test_the_moment_comes_from_plastic_work_where_the_result_has_none():
     case = analysis()
     seen = measured(folded_result(), case.structure, placed_hinges(case.structure))
