@@ -37,7 +37,7 @@ class Span(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class HingeZone:
-    """The walls that represent a hinge: a range of its member, at a corner in space also of the other member.
+    """The walls that represent a hinge: a range of its member, at a corner also one of the other member.
 
     Attributes
     ----------
@@ -48,13 +48,13 @@ class HingeZone:
     position
         Where it lies at the start [m], (3,).
     spans
-        Ranges of members: one, or at a corner in space two, the hinge's own member first.
+        Ranges of members: one, or at a corner two, the hinge's own member first.
     first, last
         Member and ring of its two measured sections.
     elements
         Elements between them.
     stiffness
-        Bending stiffness of the own member's range about `direction`, E I / length [N m/rad].
+        Bending stiffness of the ranges in series about `direction`, E I / length of each [N m/rad].
     axes
         Its x, y and z at the start as rows, (3, 3).
     turns
@@ -84,7 +84,10 @@ class HingeZone:
 def hinge_zones(structure: Structure, mesh: Mesh) -> tuple[HingeZone, ...]:
     """Zone of every hinge of the structure; neighbouring zones meet halfway."""
     places = hinge_places(structure)
-    corners = {place.name: corner for place in places if (corner := _corner(structure, place)) is not None}
+    # the hinge of a corner stands for both of its members
+    corners = {
+        place.name: corner for place in places if (corner := corner_of(structure, place.name)) is not None
+    }
     stations: dict[str, dict[str, float]] = defaultdict(dict)
     for place in places:
         stations[place.member][place.name] = place.station
@@ -98,11 +101,6 @@ def hinge_zones(structure: Structure, mesh: Mesh) -> tuple[HingeZone, ...]:
     )
 
 
-def _corner(structure: Structure, place: HingePlace) -> Corner | None:
-    """Corner that a hinge about several axes stands for, in both members."""
-    return corner_of(structure, place.name) if len(place.keys.axes or ()) > 1 else None
-
-
 def _end_of(structure: Structure, corner: Corner) -> float:
     """Station of a corner in its second member [m]."""
     starts = structure.members[corner.second].nodes[0] == corner.node
@@ -112,7 +110,7 @@ def _end_of(structure: Structure, corner: Corner) -> float:
 def _zone(
     structure: Structure, mesh: Mesh, place: HingePlace, corner: Corner | None, stations: Stations
 ) -> HingeZone:
-    """Zone of one hinge; `corner`: that of which it stands for both members."""
+    """Zone of one hinge; `corner`: the one that it stands for."""
     member, tube = place.member, mesh.tubes[place.member]
     reach = SIDE * half_fold_length(structure.section_of(member), place.axis)
     reach = reach if corner is None else corner.zone(structure)
@@ -128,15 +126,16 @@ def _zone(
     cut = min(max(tube.ring_at(place.station), own.first), own.last - 1)
     axes = _axes(structure, place, tube.frame)
     turns = tuple(sorted("xyz".index(axis) for axis in place.keys.axes or (place.axis,)))
+    direction = tube.frame.axis(place.axis)
     return HingeZone(
         place=place,
-        direction=tube.frame.axis(place.axis),
+        direction=direction,
         position=tube.frame.position(place.station),
         spans=spans,
         first=first,
         last=last,
         elements=np.concatenate([mesh.tubes[s.member].elements_between(s.first, s.last) for s in spans]),
-        stiffness=structure.flexural_rigidity(member, place.axis) / _length(mesh, own),
+        stiffness=1.0 / float(direction @ _flexibility(structure, mesh, spans, np.eye(3)) @ direction),
         axes=axes,
         turns=turns,
         flexibility=_flexibility(structure, mesh, spans, axes) if len(turns) > 1 else np.zeros((3, 3)),
