@@ -40,9 +40,9 @@ def coarse_folds(structure: Structure, mesh: Mesh) -> Iterator[str]:
         )
         yield (
             f"{FEW}{min(found.values()):.1f} elements along half a fold of "
-            f"{'member' if len(found) == 1 else 'members'} {listed(found)}. Below {LEAST_ELEMENTS:.0f} folds "
-            "of thin walls take too much energy, and rotations are too small: use fine_size "
-            f"{_advised(size):.2g} mm."
+            f"{'member' if len(found) == 1 else 'members'} {listed(found)}. With fewer than "
+            f"{LEAST_ELEMENTS:.0f}, folds of thin walls take too much energy, and rotations are too small: "
+            f"use fine_size {_advised(size):.2g} mm."
         )
 
 
