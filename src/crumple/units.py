@@ -1,7 +1,7 @@
 """The only place of unit conversion: "50 mm" in, SI inside, readable units out.
 
 The grammar is our own and strict: a decimal number, then a product of unit names with small integer
-powers.  There are no expressions, so a text such as ``9**9**9 mm`` is refused at no cost.
+powers ("mm^2", "mm2").  There are no expressions, so a text such as ``9**9**9 mm`` is refused at no cost.
 The units of mechanics are a table of exact ratios; any other single unit name is looked up in pint,
 which takes a quarter of a second to import and is loaded only then.
 
@@ -33,7 +33,9 @@ Dimension = tuple[int, int, int, int, int]
 
 _NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
 _QUANTITY = re.compile(rf"(?P<number>{_NUMBER})\s*(?P<unit>.*)", re.DOTALL)
-_FACTOR = re.compile(r"\s*(?P<name>[A-Za-zµ°%]{1,24}|1)\s*(?:(?:\^|\*\*)\s*(?P<power>[+-]?[0-9]))?\s*")
+_FACTOR = re.compile(
+    r"\s*(?P<name>[A-Za-zµ°%]{1,24}|1)(?:\s*(?:\^|\*\*)\s*(?P<power>[+-]?[0-9])|(?<=[A-Za-z])(?P<plain>[2-6]))?\s*"
+)
 _OPERATOR = re.compile(r"[*/·]")
 _SAME_CHARACTER = str.maketrans({"μ": "µ", "²": "^2", "³": "^3", "⁴": "^4"})
 
@@ -83,6 +85,10 @@ _PREFIXED: dict[str, tuple[Fraction, Dimension]] = {
     "J": (Fraction(1), _ENERGY),
     "W": (Fraction(1), (2, 1, -3, 0, 0)),
     "Hz": (Fraction(1), (0, 0, -1, 0, 0)),
+    # written without a sign between them, as engineers do
+    "Nm": (Fraction(1), _ENERGY),
+    "Nmm": (Fraction(1, 1000), _ENERGY),
+    "Ns": (Fraction(1), (1, 1, -1, 0, 0)),
 }
 _OTHERS: dict[str, tuple[Fraction, Dimension]] = {
     "1": (Fraction(1), _ONE),
@@ -101,6 +107,7 @@ _OTHERS: dict[str, tuple[Fraction, Dimension]] = {
     "min": (Fraction(60), _TIME),
     "h": (Fraction(3600), _TIME),
     "mph": (Fraction("0.44704"), (1, 0, -1, 0, 0)),
+    "kmh": (Fraction(5, 18), (1, 0, -1, 0, 0)),
     "K": (Fraction(1), _TEMPERATURE),
     "rad": (Fraction(1), _ANGLE),
     "mrad": (Fraction(1, 1000), _ANGLE),
@@ -194,7 +201,7 @@ def parse_quantity(text: str, unit: str) -> float:
     Parameters
     ----------
     text
-        A decimal number and a unit: names joined by ``*``, ``/`` or a space, powers ``^2`` or ``**2``.
+        A decimal number and a unit: names joined by ``*``, ``/`` or a space, powers ``^2``, ``**2`` or ``2``.
         A bare ``0`` needs no unit.
     unit
         SI unit of what is wanted, for example ``"Pa"``; sets the dimension. ``"1"``: a plain number.
@@ -334,7 +341,7 @@ def _parse_unit(unit_text: str) -> Unit:
         match = _FACTOR.match(text, position)
         if match is None:
             raise QuantityError(f"{_quoted(unit_text)} is not a product of unit names")
-        power = int(match["power"] or 1)
+        power = int(match["power"] or match["plain"] or 1)
         if abs(power) > MAX_POWER:
             raise QuantityError(f"the power {power} is larger than {MAX_POWER}")
         unit = unit.times(_named_unit(match["name"]), sign * power)
@@ -359,7 +366,7 @@ def _named_unit(name: str) -> Unit:
 
 
 def _meant(name: str) -> list[str]:
-    """Units that an unknown name may stand for: kg for "kgs", N*s for "Ns", else those spelt nearly so."""
+    """Units that an unknown name may stand for: kg for "kgs", J*s for "Js", else those spelt nearly so."""
     one = TABLE.get(name[:-1]) if name.endswith("s") else None
     if one is not None:
         # a plural is that of a base unit

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, MutableMapping
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -152,10 +151,11 @@ def _stilled(joint: SpatialHinge) -> SpatialHinge:
 
 def _part(spatial: SpatialHingeRecord, part: HingeComponent) -> SpatialComponent:
     plain = _component(int(part.freedom), part.record)
-    for name, share in (("shift", part.shift), ("worn", part.worn)):
-        if share is not None:
-            driven: dict[str, Any] = {name: (share.rotation, share.share)}
-            plain = replace(plain, driver=spatial.freedoms.index(share.driver), **driven)
+    index, shift, worn = spatial.freedoms.index, part.shift, part.worn
+    if shift is not None:
+        plain = replace(plain, driver=index(shift.driver), shift=(shift.rotation, shift.share))
+    if worn is not None:
+        plain = replace(plain, driver=index(worn.driver), worn=(worn.rotation, worn.share))
     return plain
 
 
