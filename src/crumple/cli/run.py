@@ -170,6 +170,8 @@ def _solve(
         if not result.time.size:
             raise CancelledError(result.reason)
         quick, sound = result.solve_seconds < QUICK, not is_shell and result.status.ok
+        if sound and not quick:
+            _say_left_out(result.solve_seconds, also)
         if sound and (quick if also[0] is None else also[0]):
             result = with_range(result, source, threads or available_cores(), cancel)
         if sound and (quick if also[1] is None else also[1]):
@@ -183,6 +185,18 @@ def _solve(
     if is_shell:
         remove_restart(folder, result)
     return result
+
+
+def _say_left_out(seconds: float, also: tuple[bool | None, bool | None, bool]) -> None:
+    """Say what a run that takes long goes without, unless that was decided."""
+    from crumple.units import format_quantity
+
+    words = {"--law-range": "the range from the laws", "--modes": "the modes of collapse"}
+    left = [option for option, asked in zip(words, also, strict=False) if asked is None]
+    if left:
+        what = " and ".join(words[option] for option in left)
+        took, quick = format_quantity(seconds, "s", 3), format_quantity(QUICK, "s")
+        typer.echo(f"Without {what}, since the run took {took} ({quick} at most): {' '.join(left)}", err=True)
 
 
 @contextmanager

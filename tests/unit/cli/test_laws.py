@@ -5,9 +5,11 @@ import math
 from pathlib import Path
 from types import SimpleNamespace
 
+import pytest
 from tests.support.stored_laws import law_text, store_of
 from typer.testing import CliRunner
 
+import crumple.cli.run as run_command
 from crumple.analysis import load
 from crumple.cli.console.laws import range_lines
 from crumple.cli.main import app
@@ -107,3 +109,21 @@ def test_a_range_whose_runs_all_stopped_is_no_empty_line():
     assert some[1].startswith("Not in the range, runs that stopped early")
     (same,) = lines({name: (5.0, 5.0)}, (), {"all laws low": {name: 5.0}})
     assert same.endswith("nothing changes by more than rounding")
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ([], "Without the range from the laws and the modes of collapse, since the run took"),
+        (["--no-law-range"], "Without the modes of collapse, since the run took"),
+        (["--no-law-range", "--no-modes"], None),
+    ],
+)
+def test_a_run_that_takes_long_says_what_it_goes_without(tmp_path, monkeypatch, options, said):
+    monkeypatch.setattr(run_command, "QUICK", 0.0)
+    found = run("run", FRAME, "--out", tmp_path / "a", *options)
+    assert found.exit_code == 0, found.output
+    assert ("Without" in found.output) == (said is not None)
+    assert said is None or said in found.output
+    summary = json.loads((tmp_path / "a" / "summary.json").read_text(encoding="utf-8"))
+    assert (summary["law_range"], summary["modes"]) == (None, None)
