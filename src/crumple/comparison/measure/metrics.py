@@ -9,6 +9,7 @@ import numpy as np
 
 from crumple.comparison.measure.motion import HingeMotion
 from crumple.numeric.arrays import Floats
+from crumple.numeric.crossing import first_above
 
 OPENED_AT = math.radians(0.5)
 """Plastic rotation [rad] from which a hinge counts as open."""
@@ -134,20 +135,8 @@ def metrics_of(motion: HingeMotion, levels: tuple[float, ...]) -> HingeMetrics:
         energy_at=tuple(_energy_at(plastic, motion.plastic_work, level) for level in levels),
         moment_peak=moment if moment > 0.0 and most > NOTHING else None,
         moment_mean=work / most if most > NOTHING and work > 0.0 else None,
-        opened=opening_time(motion.time, plastic),
+        opened=first_above(motion.time, plastic, OPENED_AT),
     )
-
-
-def opening_time(time: Floats, plastic: Floats) -> float | None:
-    """Time at which a growing plastic rotation [rad] passes the opening rotation [s]; None if never."""
-    open_ = np.flatnonzero(plastic >= OPENED_AT)
-    if not open_.size:
-        return None
-    i = int(open_[0])
-    if i == 0:
-        return float(time[0])
-    share = (OPENED_AT - plastic[i - 1]) / max(plastic[i] - plastic[i - 1], 1e-300)
-    return float(time[i - 1] + share * (time[i] - time[i - 1]))
 
 
 def _energy_at(plastic: Floats, work: Floats, level: float) -> float | None:

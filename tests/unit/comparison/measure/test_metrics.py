@@ -1,11 +1,12 @@
 """Figures of a hinge: peak, energies at levels, opening, errors."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from crumple.comparison.measure.metrics import compared, metrics_of, opening_time, rotation_levels
+from crumple.comparison.measure.metrics import compared, metrics_of, rotation_levels
 from crumple.comparison.measure.motion import HingeMotion
 
 
@@ -34,9 +35,11 @@ def test_figures_do_not_depend_on_the_sense(sense):
 
 
 def test_the_opening_is_interpolated():
-    time, plastic = np.array([0.0, 1.0, 2.0]), np.array([0.0, 0.0, math.radians(1.0)])
-    assert opening_time(time, plastic) == pytest.approx(1.5)
-    assert opening_time(time, 0.1 * plastic) is None
+    time = np.array([0.0, 1.0, 2.0])
+    turned = np.array([0.0, 0.0, math.radians(1.0)])
+    half = motion(time=time, rotation=turned, plastic_rotation=turned, moment=turned, plastic_work=turned)
+    assert metrics_of(half, ()).opened == pytest.approx(1.5)
+    assert metrics_of(replace(half, plastic_rotation=0.1 * turned), ()).opened is None
 
 
 @pytest.mark.parametrize(
