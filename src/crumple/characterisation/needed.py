@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from crumple.characterisation.bending import Bending
 from crumple.characterisation.crush import Crush
-from crumple.characterisation.out_of_plane import OutOfPlane
+from crumple.characterisation.out_of_plane import OutOfPlane, usual_resolution
 from crumple.characterisation.rate import FASTER, rate_pair
 from crumple.characterisation.solving import FINER
 from crumple.characterisation.sub_model import SubModel, is_mirrored
@@ -95,7 +95,8 @@ def needed(structure: Structure, largest: float) -> tuple[Needed, ...]:
         add(Bending(section, material, corner.axis, angle=corner.angle, largest=largest), node)
         if not planar(structure) and is_mirrored(section, corner.across):
             for about in DIRECTIONS:
-                add(OutOfPlane(section, material, corner.axis, corner.angle, about, largest), node)
+                place = section, material, corner.axis, corner.angle, about, largest
+                add(OutOfPlane(*place, resolution=usual_resolution(section, about)), node)
     for node, joint in t_places(structure).items():
         axes = (bending_axis(structure, joint.branch),) if planar(structure) else AXES
         for plane in (joint.plane(axis) for axis in axes):

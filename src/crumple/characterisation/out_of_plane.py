@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TypeGuard
 
 import numpy as np
 
@@ -37,8 +38,20 @@ OUTPUTS = 400
 """Points in time at which it is measured."""
 OVERSHOOT, ELASTIC_TURN = 1.05, math.radians(4.0)
 """End rotation over the plastic rotation of the law, and what is added to it."""
+LONG_PIECES = Resolution(elements=5.0)
+"""Mesh of corners with such long pieces: 8 elements along half a fold take four times as long."""
 STRONG = 0.97
 """Moment over the plastic moment of the pieces from which these may yield too."""
+
+
+def usual_resolution(section: Section, about: Direction) -> Resolution:
+    """Of a corner that is characterised for use: coarser than the nominal one where its pieces are long."""
+    return LONG_PIECES if _is_long(section, about) else NOMINAL
+
+
+def _is_long(section: Section, about: Direction) -> TypeGuard[RectangularTube]:
+    """Whether the corner distorts its members over more than their sides."""
+    return about == "bisector" and isinstance(section, RectangularTube)
 
 
 @dataclass(frozen=True)
@@ -137,7 +150,7 @@ class OutOfPlane:
     def piece(self) -> float:
         """Length of each piece [m], long enough for a mitre, and for the walls that the corner distorts."""
         usual = STUB * largest_side(self.section)
-        if self.about == "bisector" and isinstance(self.section, RectangularTube):
+        if _is_long(self.section, self.about):
             usual = max(usual, DISTORTED * distorted_length(self.section))
         return max(self.length_factor * usual, corner_piece(self.section, self.axis, self.angle))
 

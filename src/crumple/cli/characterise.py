@@ -174,6 +174,7 @@ class _Place(NamedTuple):
 
 def _model(section: str, material: str, given: _Place) -> SubModel:
     from crumple.characterisation import Bending, Crush, OutOfPlane, Torsion
+    from crumple.characterisation.out_of_plane import usual_resolution
     from crumple.cli.console.named import material_of, section_of
     from crumple.errors import InputError, Problem
     from crumple.section.section import checked_axis
@@ -190,7 +191,9 @@ def _model(section: str, material: str, given: _Place) -> SubModel:
     if given.load == "bending":
         return Bending(shape, metal, checked_axis(given.axis), sense, corner, largest)
     if given.load == "out-of-plane" and corner is not None:
-        return OutOfPlane(shape, metal, checked_axis(given.axis), corner, _direction(given), largest)
+        about = _direction(given)
+        place = shape, metal, checked_axis(given.axis), corner, about, largest
+        return OutOfPlane(*place, resolution=usual_resolution(shape, about))
     if (given.load == "out-of-plane") != (corner is not None):
         what, todo = (
             "the load does not fit the place",

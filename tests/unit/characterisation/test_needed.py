@@ -7,14 +7,15 @@ import pytest
 from typer.testing import CliRunner
 
 from crumple.analysis import load
-from crumple.characterisation import Bending
+from crumple.characterisation import Bending, OutOfPlane
 from crumple.characterisation.needed import left_out, needed
+from crumple.characterisation.out_of_plane import usual_resolution
 from crumple.characterisation.parallel import characterise_all
 from crumple.characterisation.resolution import Resolution
 from crumple.cli.main import app
 from crumple.hinge.measured.library import by_place, read_store
 from crumple.material import Material
-from crumple.section import RectangularTube
+from crumple.section import CircularTube, RectangularTube
 
 LARGEST = math.radians(30.0)
 STEEL = Material("steel", 210e9, 0.3, 7850.0, 488e6)
@@ -40,6 +41,20 @@ def test_the_estimate_grows_with_both_senses_and_finer_meshes():
     assert corner.seconds() > 2.0 * straight.seconds()
     more = sum(ratio**3 for ratio in (1.25, 1.5625))
     assert straight.seconds(converge=True) == pytest.approx(straight.seconds() * (1.0 + more))
+
+
+def test_corners_about_their_bisector_have_a_coarser_mesh_if_their_pieces_are_long():
+    square, ring = RectangularTube(0.050, 0.050, 0.002), CircularTube(0.050, 0.002)
+    for section, about, elements in (
+        (square, "bisector", 5.0),
+        (square, "tangent", 8.0),
+        (ring, "bisector", 8.0),
+    ):
+        assert usual_resolution(section, about).elements == elements
+    frame = needed(load("tests/concordance/structures/l_across.yaml").structure, LARGEST)
+    across = {one.model.about: one.model for one in frame if isinstance(one.model, OutOfPlane)}
+    assert across["bisector"].resolution.elements == 5.0
+    assert across["tangent"].resolution.elements == 8.0
 
 
 def test_the_list_states_what_is_missing_and_solves_nothing(tmp_path):
