@@ -7,9 +7,10 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from tests.concordance.models import MODELS
+from tests.concordance.models import ELASTIC, MODELS
+from tests.concordance.ranges import Ranged, ranged
 from tests.concordance.stored import ShellResults, read
-from tests.concordance.suite import Case
+from tests.concordance.suite import RANKED, Case
 
 from crumple.analysis import solve
 from crumple.comparison import with_frames
@@ -38,6 +39,8 @@ class Verdict:
         Share of pairs of joints that open in the same order [-]; NaN without pairs.
     reason
         Why there is no result.
+    ranges
+        Displacements with the range from the bands of the laws; of elastic members, and not of layouts.
     """
 
     case: Case
@@ -47,6 +50,7 @@ class Verdict:
     figures: dict[str, list[Figure]] = field(default_factory=dict)
     order: float = math.nan
     reason: str = ""
+    ranges: list[Ranged] = field(default_factory=list)
 
     def worst(self, kind: str) -> float:
         """Largest error of a kind; NaN without one."""
@@ -88,8 +92,10 @@ def _judged(case: Case, model: str, shells: ShellResults) -> Verdict:
         bending = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
         measures = measure(solve(with_frames(analysis)), bending, seconds)
         reason = "" if measures.complete else f"{result.status.value}: {result.reason}"
+        has_range = model == ELASTIC and case not in RANKED
+        ranges = ranged(analysis, result, shells.reference) if has_range else []
     except InputError as error:
-        measures, reason = Measures(status="refused"), error.problems[0].what
+        measures, reason, ranges = Measures(status="refused"), error.problems[0].what, []
     # the shells' names: a model with other joints or hinges is measured at the same places
     own = case.analysis()
     structure = with_elastic_members(own.structure, own.multibody, own.duration)
@@ -99,7 +105,7 @@ def _judged(case: Case, model: str, shells: ShellResults) -> Verdict:
     )
     joined = with_joined_zones(measures, structure, shells.reference)
     figures = figures_of(joined, reference, tuple(zip(runs[::2], runs[1::2], strict=True)))
-    return Verdict(case, model, measures, shells, figures, _order(measures, shells.reference), reason)
+    return Verdict(case, model, measures, shells, figures, _order(measures, shells.reference), reason, ranges)
 
 
 def _order(model: Measures, shell: Measures) -> float:

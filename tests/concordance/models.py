@@ -37,9 +37,10 @@ def _with(analysis: Analysis, structure: Structure) -> Analysis:
     return analysis.model_copy(update={"structure": structure})
 
 
+ELASTIC = "elastic members"
 MODELS: dict[str, Callable[[Analysis], Analysis]] = {
     "rigid members": _rigid,
-    "elastic members": _elastic,
+    ELASTIC: _elastic,
 }
 if LAWS.is_dir():
     MODELS["rigid members, laws from shells"] = lambda analysis: _rigid(_stored_laws(analysis))

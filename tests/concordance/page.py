@@ -45,6 +45,15 @@ Drawn by the same program from another seed, and solved and judged in the same w
 }
 
 
+RANGES = f"""## Ranges from the laws
+
+A run states a [range](theory/measured_curves.md) from the bands of its laws: all low, all high, and low and
+high in turns. Of displacements at the end (elastic members), layouts left out: how many are within
+{100 * TARGETS["displacement"]:.0f} % of the shells' value, and for how many this value lies in the range. A law
+without a band keeps its values. A run that is refused or does not complete has no range and is not counted.
+"""
+
+
 def write_page(verdicts: Sequence[Verdict], path: Path, *, whole: bool) -> None:
     """Write the page; of a part of the suite, print it only."""
     text = page(verdicts)
@@ -62,6 +71,8 @@ def page(verdicts: Sequence[Verdict]) -> str:
         own = [v for v in structures if v.case.half == half]
         if own:
             parts += [head, _summary(own), _structures(own)]
+    if any(v.ranges for v in structures):
+        parts += [RANGES, _ranges(structures)]
     ranked = [v for v in verdicts if v.case in RANKED]
     if ranked:
         parts += ["## Ranking of layouts\n", _ranking(ranked)]
@@ -131,6 +142,22 @@ def _structures(verdicts: Sequence[Verdict]) -> str:
             f"| {verdict.case.name} | {verdict.model} | {' | '.join(cells)} "
             f"| {'' if residual is None else f'{residual:.1e}'} | {verdict.reason[:100]} |"
         )
+    return "\n".join(lines) + "\n"
+
+
+def _ranges(verdicts: Sequence[Verdict]) -> str:
+    """Displacements within the target and within their range, by half."""
+    lines = [
+        "| Half | Displacements | Within the target | In the range | Either | Median width of the range |",
+        "| --- | --- | --- | --- | --- | --- |",
+    ]
+    for half in HEADS:
+        rows = [row for v in verdicts if v.case.half == half for row in v.ranges]
+        if rows:
+            near, inside = sum(row.near for row in rows), sum(row.inside for row in rows)
+            either = sum(row.near or row.inside for row in rows)
+            width = _percent(float(np.median([row.width for row in rows])))
+            lines.append(f"| {half} | {len(rows)} | {near} | {inside} | {either} | {width} |")
     return "\n".join(lines) + "\n"
 
 

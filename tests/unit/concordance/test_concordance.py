@@ -9,6 +9,7 @@ import pytest
 from tests.concordance.judging import Verdict
 from tests.concordance.layouts import LAYOUTS
 from tests.concordance.page import page
+from tests.concordance.ranges import Ranged, ranged
 from tests.concordance.ranking import ranking
 from tests.concordance.stored import FOLDER, missing, read, to_json
 from tests.concordance.suite import CASES, DRAWN, DRAWN_LATER, FAMILIES, STRUCTURES
@@ -171,6 +172,33 @@ def test_stored_shell_results_are_of_the_present_inputs() -> None:
 def test_measures_are_stored_with_six_digits(own: Measures) -> None:
     short = to_json(replace(own, extents={"tip": 1.23456789}))
     assert short["extents"]["tip"] == 1.23457
+
+
+def test_ranges_say_whether_the_shells_are_inside(analysis: Analysis, own: Measures) -> None:
+    result = solve(analysis)
+    (tip,) = ranged(analysis, result, own)
+    assert tip.model == pytest.approx(
+        np.linalg.norm([result[f"node.tip.displacement.{k}"][-1] for k in "xyz"])
+    )
+    assert tip.shell == pytest.approx(tip.model, rel=1e-3)
+    assert (tip.near, tip.inside) == (True, True)
+    # laws of 14 and 25 % low and high move the tip by more than a tenth
+    assert 0.9 * tip.model > tip.low
+    assert tip.high > 1.1 * tip.model
+    for factor, near, inside in ((0.5 * (tip.low / tip.model + 0.9), False, True), (3.0, False, False)):
+        moved = replace(own, paths={"tip": [factor * value for value in own.paths["tip"]]})
+        (one,) = ranged(analysis, result, moved)
+        assert (one.near, one.inside) == (near, inside)
+
+
+def test_the_page_counts_what_is_in_its_range() -> None:
+    case = CASES["l_across"]
+    shells = read(case)
+    assert shells is not None
+    rows = [Ranged("a", 1.0, 1.05, 1.02, 1.1, 0.05), Ranged("b", 1.0, 1.3, 0.9, 1.3, 0.3)]
+    verdict = Verdict(case, "elastic members", shells.nominal, shells, {}, ranges=rows)
+    assert "| tuned-on | 2 | 1 | 1 | 2 | 24.0 % |" in page([verdict])
+    assert "Ranges" not in page([replace(verdict, ranges=[])])
 
 
 def test_the_page_names_what_is_not_judged() -> None:
