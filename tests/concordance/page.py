@@ -49,8 +49,8 @@ RANGES = f"""## Ranges from the laws
 
 A run states a [range](theory/measured_curves.md) from the bands of its laws: all low, all high, and low and
 high in turns. Of displacements at the end (elastic members), layouts left out: how many are within
-{100 * TARGETS["displacement"]:.0f} % of the shells' value, and for how many this value lies in the range. A law
-without a band keeps its values. A run that is refused or does not complete has no range and is not counted.
+{100 * TARGETS["displacement"]:.0f} % of the shells' value, and for how many this value lies in the range. A
+law without a band keeps its values. Runs that are refused or do not complete have no range and do not count.
 """
 
 

@@ -31,6 +31,8 @@ ROUNDING = 1e-9
 """Share of the duration below which two times count as equal."""
 TIMED_BELOW = 1.0
 """Solve time [s] up to which a model is timed repeatedly; for longer ones caches matter little."""
+RANGED_BELOW = 10.0
+"""Solve time of the candidate [s] up to which its range and modes are computed: shells take far longer."""
 
 Progress = Callable[[float], None]
 Cancel = Callable[[], bool]
@@ -85,7 +87,7 @@ def solve_and_compare(
     candidate = _hashed(solve(dense, cancel=cancel), analysis)
     if not candidate.time.size:
         raise CancelledError(candidate.reason)
-    if variants and candidate.status.ok and candidate.solve_seconds < TIMED_BELOW:
+    if variants and candidate.status.ok and candidate.solve_seconds < RANGED_BELOW:
         candidate = _with_neighbours(candidate, analysis, threads, cancel)
     if keep is not None:
         keep(candidate)

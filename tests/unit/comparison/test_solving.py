@@ -5,7 +5,7 @@ import pytest
 from tests.support.result.folded_tube import EXAMPLE
 
 from crumple.analysis import loads
-from crumple.comparison import with_frames
+from crumple.comparison import solving, with_frames
 from crumple.comparison.solving import mesh_name, solve_and_compare, with_mesh
 from crumple.errors import CancelledError, Status
 from crumple.hinge.record import recording
@@ -42,6 +42,15 @@ def test_timed_solves_sample_their_laws_anew(case, monkeypatch):
     monkeypatch.setattr("crumple.multibody.timing.LONG", 1e9)
     solve_and_compare(case, variants=False)
     assert len(sampled) >= REPEATS
+
+
+@pytest.mark.parametrize(("below", "known"), [(1e9, True), (0.0, False)])
+def test_models_that_are_too_slow_to_be_timed_have_their_range(case, monkeypatch, below, known):
+    monkeypatch.setattr(solving, "TIMED_BELOW", 0.0)
+    monkeypatch.setattr(solving, "RANGED_BELOW", below)
+    found = solve_and_compare(case)
+    assert (found.candidate.result.law_range is not None) == known
+    assert found.timings == {}
 
 
 def test_cancelled_after_the_shell_run_nothing_more_is_solved(case):
