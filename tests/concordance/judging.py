@@ -89,7 +89,7 @@ def _judged(case: Case, model: str, shells: ShellResults) -> Verdict:
         analysis = MODELS[model](case.analysis())
         result = solve(analysis)
         seconds = time.process_time() - begin
-        bending = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+        bending = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
         measures = measure(solve(with_frames(analysis)), bending, seconds)
         reason = "" if measures.complete else f"{result.status.value}: {result.reason}"
         has_range = model == ELASTIC and case not in RANKED
@@ -98,7 +98,7 @@ def _judged(case: Case, model: str, shells: ShellResults) -> Verdict:
         measures, reason, ranges = Measures(status="refused"), error.problems[0].what, []
     # the shells' names: a model with other joints or hinges is measured at the same places
     own = case.analysis()
-    structure = with_elastic_members(own.structure, own.multibody, own.duration)
+    structure = with_elastic_members(own.structure, own.multibody, own.time_in_motion)
     reference, *runs = (
         with_joined_zones(one, structure, shells.reference)
         for one in (shells.reference, *(one for pair in shells.pairs for one in pair))

@@ -123,6 +123,7 @@ double Simulation::unbalance(const State& fine) const {
 // one step and two half steps; the half steps get the change of the velocities from the full step
 bool Simulation::solve(double h) {
     stepper_.stage().settling = refused_ || state_.t <= state_.stage_start;
+    stepper_.stage().lost = lost_ > 0;
     coarse_ = state_;
     passes_.clear();
     stepper_.keep(step_records_ ? &passes_ : nullptr);

@@ -30,6 +30,7 @@ struct Stage {
     bool quasi_static = false;
     std::vector<DriveStage> drives;
     bool settling = false;  // the next steps begin out of balance, as at its start or beside a kink
+    bool lost = false;      // there is no balance nearby
 };
 
 struct Problem {
@@ -60,6 +61,10 @@ struct Problem {
     double followed(double time) const { return stage.quasi_static ? 1 : 1 - std::exp(-time * model.resolved_frequency); }
     // weight of the end of a step in the moments of elastic hinges, see `hinge::Span`
     double end_weight() const { return !stage.quasi_static ? 0.5 : stage.settling ? settling_weight : still_weight; }
+    // whether a step finds the balance of elastic forces without inertia; out of balance the middle keeps the energy
+    bool balances() const { return stage.quasi_static && elastic && !stage.lost; }
+    // share of a step after which forces and places are taken: where the elastic ones balance the loads, else its middle
+    double balanced_at() const { return balances() ? end_weight() : 0.5; }
     // factor of a load in a step from a state: its mean, in quasi-static stages with the weight of elastic moments
     double factor_of(const Load& load, const State& s, double h) const;
     // share of the true inertia that acts in this step

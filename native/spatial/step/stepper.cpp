@@ -8,8 +8,10 @@ namespace crumple::spatial {
 namespace {
 
 // Passes over the frozen quantities of a step: the second evaluates them at the middle of the motion found by the first, which makes
-// the step second-order accurate.  More follow only until friction agrees with the normal impulses of the contacts.
+// the step second-order accurate.  More follow only until friction agrees with the normal impulses of the contacts, and in quasi-static
+// steps of elastic hinges until places change by at most a share of the motion.
 constexpr int passes = 2, most_passes = 20;
+constexpr double same_place = 1e-3;
 // Passes in which contacts take the load in turns, after which their friction may disagree: it would in all that follow.
 constexpr int most_turns = 3;
 // Length of a step that is used to evaluate the present state only [s].
@@ -89,7 +91,7 @@ void Stepper::place_middle(const State& s, double h) {
     predict(s, h);
     p_.set_mobilities(p_.middle);
     set_free(s);
-    p_.locate_all(s, p_.middle, s.t + h / 2, p_.rows, p_.error.data());
+    p_.locate_all(s, p_.middle, s.t + p_.balanced_at() * h, p_.rows, p_.error.data());
     p_.system.assemble(p_.rows);
 }
 
@@ -97,7 +99,7 @@ void Stepper::place_middle(const State& s, double h) {
 void Stepper::predict(const State& s, double h) {
     for (size_t i = 0; i < p_.model.bodies.size(); i++) {
         const Twist mean = 0.5 * (s.velocity[i] + guess_[i]);
-        p_.middle[i] = moved(s.pose[i], (h / 2) * mean);
+        p_.middle[i] = moved(s.pose[i], (p_.balanced_at() * h) * mean);
         p_.end[i] = moved(s.pose[i], h * mean);
     }
     for (size_t i = 0; i < p_.model.bodies.size(); i++) momentum_[i] = {{}, h * p_.model.bodies[i].mass * p_.model.gravity};
@@ -193,12 +195,24 @@ bool Stepper::solve() {
     return records_.following() ? records_.solve(p_, newton_) : newton_.solve();
 }
 
-// After a pass: whether contacts and hinges need no further one.
+// After a pass: whether contacts, hinges and places need no further one.
 bool Stepper::settle() {
     if (newton_.took_turns()) turns_++;
     const bool rubs = !contact_.settle(turns_ >= most_turns);
     const bool turned = turned_back();
-    return records_.settled(p_, !turned && !rubs);
+    return records_.settled(p_, !turned && !rubs && (!p_.balances() || keeps_place()));
+}
+
+// Whether a pass leaves the places at which its forces balance where the pass before had them.  What presses a member bends it further
+// with its deflection: near its buckling load two passes leave most of that to the next step, and steps shrink without end.
+bool Stepper::keeps_place() const {
+    double change = 0, motion = 0;
+    for (size_t i = 0; i < guess_.size(); i++) {
+        const Twist &to = p_.velocity[i], d = to - guess_[i];
+        change = std::max({change, norm(d.v), norm(d.w) * p_.model.length});
+        motion = std::max({motion, norm(to.v), norm(to.w) * p_.model.length});
+    }
+    return change <= same_place * motion;
 }
 
 // Whether a coupled hinge came to rest or reversed in a step that assumed continued sliding: its rates then have another weight, see

@@ -85,6 +85,7 @@ private:
     void predict(const State& s, double h);
     void set_free(const State& s);
     void freeze_spring(const State& s, double h, size_t link);
+    bool keeps_place() const;
     bool turned_back();
     void find_redundant(const std::vector<Pose>& poses);
 

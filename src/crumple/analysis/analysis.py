@@ -23,6 +23,7 @@ from crumple.structure import (
     output_problems,
     shell_problems,
     stage_problems,
+    time_in_motion,
 )
 from crumple.structure.schema.mapping import frozen
 from crumple.structure.schema.spec import Named, Spec, raise_all
@@ -139,6 +140,11 @@ class Analysis(Spec):
     outputs: Outputs = Outputs()
     criteria: Named[Criterion] = frozen({})
     uncertainty: Uncertainty | None = None
+
+    @property
+    def time_in_motion(self) -> float:
+        """Duration without quasi-static stages [s]."""
+        return time_in_motion(self.duration, self.stages)
 
     @model_validator(mode="after")
     def _sound(self, info: ValidationInfo) -> Analysis:

@@ -28,6 +28,7 @@ from crumple.structure import (
     problems_in,
     shell_problems,
     stage_problems,
+    time_in_motion,
     with_elastic_members,
     with_used_laws,
 )
@@ -203,7 +204,8 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
         cross += stage_problems(whole.analysis.stages, structure, defined)
     # elastic members have hinges where rigid ones have none
     settings = whole.analysis.multibody if whole else None
-    bending = with_elastic_members(structure, settings, duration) if settings else structure
+    moving = time_in_motion(duration, whole.analysis.stages) if whole else 0.0
+    bending = with_elastic_members(structure, settings, moving) if settings else structure
     if whole and not cross:
         cross += filter_problems(bending, whole.outputs, duration, interval)
     scatter: Uncertainty | None = None
@@ -211,7 +213,7 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
     if whole and not cross:
         criteria, cross = criteria_in_si(whole.criteria, bending, whole.outputs, duration)
         sound = Structure.of_sound_parts(whole)
-        bending = with_elastic_members(sound, whole.analysis.multibody, duration)
+        bending = with_elastic_members(sound, whole.analysis.multibody, moving)
         scatter, wrong = in_si(whole.uncertainty, data, bending)
         cross += wrong
     problems += [(path_of(problem.where), problem) for problem in cross]

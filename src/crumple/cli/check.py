@@ -86,7 +86,7 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
     )
     from crumple.structure import with_elastic_members
 
-    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
     linkage = link(structure)
     loose = unheld_notes(analysis.structure, linkage, analysis.stages)
     stuck = stuck_note(stuck_drives(analysis.structure, linkage))

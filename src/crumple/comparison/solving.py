@@ -111,7 +111,7 @@ def solve_and_compare(
     found = compare(
         candidate,
         reference,
-        with_elastic_members(analysis.structure, analysis.multibody, analysis.duration),
+        with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion),
         variants=results,
         curves=curves,
     )
@@ -184,7 +184,7 @@ def _variants(
     dense: Analysis, candidate: Result, reference: Result, cancel: Cancel | None
 ) -> dict[str, tuple[Analysis, Result]]:
     """Further models and their results, by name; a model that is not solved is left out."""
-    structure = with_elastic_members(dense.structure, dense.multibody, dense.duration)
+    structure = with_elastic_members(dense.structure, dense.multibody, dense.time_in_motion)
     shell = compare(candidate, reference, structure).reference
     found = {}
     for name, model in variants_of(dense, shell.hinges).items():

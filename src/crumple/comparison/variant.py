@@ -41,9 +41,9 @@ def variants_of(analysis: Analysis, motions: Sequence[HingeMotion]) -> dict[str,
     """
     structure = analysis.structure
     elastic = _with_members(analysis, structure, "elastic")
-    bending = with_elastic_members(structure, elastic.multibody, analysis.duration)
+    bending = with_elastic_members(structure, elastic.multibody, analysis.time_in_motion)
     found = {}
-    if with_elastic_members(structure, analysis.multibody, analysis.duration) is not structure:
+    if with_elastic_members(structure, analysis.multibody, analysis.time_in_motion) is not structure:
         found[RIGID_MEMBERS] = _with_members(analysis, structure, "rigid")
     else:
         if (hinges := with_elastic_hinges(structure)) is not None:

@@ -10,7 +10,7 @@ import numpy as np
 from crumple._core.outcome import Outcome
 from crumple.errors import CancelledError, Status
 from crumple.numeric.arrays import Floats
-from crumple.structure import MultibodySettings, Outputs, Stage
+from crumple.structure import MultibodySettings, Outputs, Stage, time_in_motion
 
 Progress = Callable[[float], None]
 Cancel = Callable[[], bool]
@@ -52,6 +52,11 @@ class Run:
     capacities: Mapping[str, float] = field(default_factory=dict)
     checks: bool = True
     bending_tried: bool = False
+
+    @property
+    def time_in_motion(self) -> float:
+        """Duration without quasi-static stages [s]."""
+        return time_in_motion(self.duration, self.stages)
 
 
 def output_times(run: Run, *, ends_only: bool = False) -> Floats:

@@ -90,7 +90,7 @@ def solve_multibody(
     tests/verification.
     """
     begin = time.perf_counter()
-    given, structure = structure, with_elastic_members(structure, run.settings, run.duration)
+    given, structure = structure, with_elastic_members(structure, run.settings, run.time_in_motion)
     accuracy = run.settings.accuracy
     try:
         with asking(cancel):
@@ -250,7 +250,8 @@ def _result(
     solved = replace(solved, bending_tried=run.bending_tried)
     bound = run.settings.energy_residual_bound
     status, reason = outcome_status(solved.outcome, solved.reason, solved.residual, bound)
-    cautions = physics_cautions(structure, solved)
+    slow = any(stage.kind == "quasi-static" for stage in run.stages)
+    cautions = physics_cautions(structure, solved, slow=slow)
     if status.ok and any(caution.violation for caution in cautions):
         status = Status.IMPOSSIBLE
         reason = " ".join(sentences(caution for caution in cautions if caution.violation))
@@ -289,7 +290,7 @@ def _result(
             *([doubt] if doubt else []),
             *missing_pictures(run.outputs.pictures, float(solved.time[-1])),
         ),
-        assumptions=trust.assumptions(structure, solver),
+        assumptions=trust.assumptions(structure, solver, run),
         provenance=Provenance(
             version="", input_hash="", isa="scalar", settings=_settings(run, solver, solved, accuracy)
         ),

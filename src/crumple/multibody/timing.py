@@ -33,7 +33,7 @@ def stepping_seconds(structure: Structure, run: Run) -> float | None:
     run
         How long, with which settings and outputs.
     """
-    solver = solver_of(with_elastic_members(structure, run.settings, run.duration), run)
+    solver = solver_of(with_elastic_members(structure, run.settings, run.time_in_motion), run)
     if solver.run(run.settings.accuracy, None).outcome is not Outcome.COMPLETE:
         return None
     return least_seconds(lambda: solver.run(run.settings.accuracy, None).stepping_seconds)

@@ -20,7 +20,7 @@ from crumple.structure.checks.limit_checks import history_problems
 from crumple.structure.checks.obstacle_checks import stage_problems
 from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.hinges.asked import any_automatic
-from crumple.structure.hinges.elastic_members import with_elastic_members
+from crumple.structure.hinges.elastic_members import rigid_for_long, with_elastic_members
 from crumple.structure.hinges.hinges import placed_hinges, plastic_hinges, shares_left_out
 from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.joints.placed_hinge import PlacedHinge
@@ -46,7 +46,7 @@ from crumple.structure.keys.obstacles import (
 from crumple.structure.keys.outputs import Distance, Filter, Outputs, SectionForce, SectionRotation
 from crumple.structure.keys.section import ShapeSpec
 from crumple.structure.keys.spot_welds import SpotWelds
-from crumple.structure.keys.stages import Stage, Until
+from crumple.structure.keys.stages import Stage, Until, time_in_motion
 from crumple.structure.keys.walls import WallSectionSpec, WallSpec, WeldSpec
 from crumple.structure.schema.mapping import FrozenMapping
 from crumple.structure.settings.multibody_settings import MultibodySettings
@@ -120,10 +120,12 @@ __all__ = [
     "planar",
     "plastic_hinges",
     "problems_in",
+    "rigid_for_long",
     "shares_left_out",
     "shell_problems",
     "stage_problems",
     "struck_places",
+    "time_in_motion",
     "used_texts",
     "value_at",
     "with_elastic_members",

@@ -32,7 +32,7 @@ def test_hinges_also_twist_as_those_of_elastic_members():
         for name in ("post-root", "arm-knee")
     ]
     structure = variants_of(analysis, folds)[SHELL_LAWS].structure
-    plain = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    plain = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
     own, wanted = ({hinge.name: hinge for hinge in plastic_hinges(one)} for one in (structure, plain))
     assert own.keys() == wanted.keys()
     assert {len(hinge.spatial.freedoms) for hinge in wanted.values()} == {3}

@@ -70,7 +70,7 @@ analysis:
 
 def solved_once(text):
     analysis = loads(text)
-    bends = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    bends = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
     run = Run(analysis.duration, analysis.duration)
     return solver.SpatialSolver(bends, run, placed_hinges(bends)).run(1e-3, None, ends_only=True)
 

@@ -302,7 +302,7 @@ def test_the_order_of_members_at_a_corner_makes_no_difference(record_figure):
 def test_a_member_between_corners_twists_as_a_whole(order):
     members = ", ".join(BAR.format(*bar) for bar in order)
     analysis = loads(CORNERS.format(members=members, tip="d", more=", d: [0.5 m, 0 m, 0 m]"))
-    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
     twists = [
         component.record.elastic_stiffness
         for joint in placed_hinges(structure)

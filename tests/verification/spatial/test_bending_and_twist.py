@@ -53,7 +53,7 @@ TUBES = {
 def test_the_fold_twists_and_bends_as_in_shells(name, record_figure):
     given, twisted, bent = TUBES[name]
     analysis = crumple.loads(ECCENTRIC.format(**dict(zip(KEYS, given, strict=True))))
-    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
     found = measure(crumple.solve(with_frames(analysis)), structure, 0.0).rotations["foot, bar"]
     for what, value, expected in (("twist", -found[0], twisted), ("bending", found[1], bent)):
         within = 0.20 if name == "40x60x2" else 0.15

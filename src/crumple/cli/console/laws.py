@@ -58,7 +58,7 @@ def write_frozen(sources: list[LoadedInput], file: Path) -> None:
     notes = [f"Crumple {__version__}; formulas are not written, their hashes show whether they are the same."]
     for source in sources:
         analysis = source.analysis
-        structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+        structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
         texts |= set(used_texts(structure))
         for name, use in law_uses(structure).items():
             notes.append(f"{source.path.name}: hinge {name}: {use.origin} {use.content}")

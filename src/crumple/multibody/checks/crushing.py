@@ -4,6 +4,9 @@ A hinge without an axial component carries any axial force.  What would fold the
 first axial law that takes the section, or its squash load.  Against it stands, at every hinge, the axial
 force that two outputs in a row reach; and, where impacts took most of the energy, the force of an obstacle,
 which is a mean between outputs, on members that lie along it.
+
+Rigid bars do not buckle either.  Under slow loading the same force, of hinges that shorten too, is compared
+with Euler's load of the member between pinned ends, pi^2 E I/L^2 with the smaller second moment.
 """
 
 from __future__ import annotations
@@ -20,7 +23,7 @@ from crumple.multibody.answer.solved import Solved
 from crumple.multibody.checks.names import named
 from crumple.numeric.rotation import turned
 from crumple.result import Caution
-from crumple.section import plastic_interaction
+from crumple.section import AXES, plastic_interaction
 from crumple.structure import Structure
 from crumple.structure.checks.doubtful import double_members
 from crumple.structure.hinges.asked import automatic_of
@@ -46,7 +49,8 @@ def crushing_cautions(structure: Structure, solved: Solved, *, struck: bool) -> 
         Whether impacts took most of the energy.
     """
     found: dict[str, float] = {}
-    for member, force in (*_at_hinges(structure, solved), *(_blows(structure, solved) if struck else ())):
+    at_hinges = _pressed(structure, solved, shortening=False)
+    for member, force in (*at_hinges, *(_blows(structure, solved) if struck else ())):
         found[member] = max(force, found.get(member, 0.0))
     alike: dict[tuple[str, str], dict[str, float]] = {}
     for member, force in found.items():
@@ -71,6 +75,41 @@ def crushing_cautions(structure: Structure, solved: Solved, *, struck: bool) -> 
             yield Caution("axial_compression", force, peak, "N", f"member {member}", text)
 
 
+def buckling_cautions(structure: Structure, solved: Solved) -> Iterator[Caution]:
+    """One caution for all rigid members that carry more than Euler's load between pinned ends.
+
+    Parameters
+    ----------
+    structure, solved
+        The structure and the result of its run, with slow loading.
+    """
+    found: dict[str, tuple[float, float]] = {}
+    for member, force in _pressed(structure, solved, shortening=True):
+        limit = _euler(structure, member)
+        if not structure.members[member].elastic and force > max(limit, found.get(member, (0.0, 0.0))[0]):
+            found[member] = force, limit
+    if found:
+        worst = max(found, key=lambda member: found[member][0] / found[member][1])
+        force, limit = found[worst]
+        advice = "" if solved.bending_tried else "let members bend (analysis.multibody.members: elastic), or "
+        text = (
+            f"{named('Member', list(found))} {'carries' if len(found) == 1 else 'carry'} up to "
+            f"{force / limit:.3g} times the load of Euler between pinned ends ({worst}: "
+            f"{force / 1e3:.4g} kN, {limit / 1e3:.4g} kN). Rigid bars do not buckle: forces and energies may "
+            f"be several times too large; {advice}make the quasi-static stage a slow dynamic one, or solve "
+            "with shells."
+        )
+        for member, (force, limit) in found.items():
+            yield Caution("buckling", force, limit, "N", f"member {member}", text)
+
+
+def _euler(structure: Structure, member: str) -> float:
+    section = structure.section_of(member)
+    smaller = min(section.second_moment(axis) for axis in AXES)
+    bending = structure.material_of(member).youngs_modulus * smaller
+    return float(np.pi**2 * bending / structure.frame_of(member).length ** 2)
+
+
 def _bending(structure: Structure, members: Iterable[str]) -> str:
     """What else helps rigid members with automatic hinges."""
     if any(structure.members[name].elastic or automatic_of(structure, name) is None for name in members):
@@ -78,8 +117,11 @@ def _bending(structure: Structure, members: Iterable[str]) -> str:
     return BEND
 
 
-def _at_hinges(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:
-    """Members and the largest axial compression [N] that persists for two outputs."""
+def _pressed(structure: Structure, solved: Solved, *, shortening: bool) -> Iterator[tuple[str, float]]:
+    """Members and the largest axial compression [N] at a hinge that persists for two outputs.
+
+    `shortening`: at hinges that shorten too.
+    """
     poses = solved.poses
     if not isinstance(poses, SpatialPoses):
         return
@@ -87,7 +129,7 @@ def _at_hinges(structure: Structure, solved: Solved) -> Iterator[tuple[str, floa
     double = double_members(structure)
     for i, connection in enumerate(poses.linkage.connections):
         hinge = connection.hinge
-        if hinge is None or not hinge.plastic or int(Freedom.AXIAL) in connection.free:
+        if hinge is None or not hinge.plastic or (int(Freedom.AXIAL) in connection.free and not shortening):
             continue
         if hinge.member in double:
             continue

@@ -18,7 +18,7 @@ from crumple.multibody.answer.forces import on_second
 from crumple.multibody.answer.poses import SpatialPoses
 from crumple.multibody.answer.solved import CrushedContact, HingeHistory, Solved
 from crumple.multibody.bodies.rigid import lump_mass, piece_mass
-from crumple.multibody.checks.crushing import crushing_cautions
+from crumple.multibody.checks.crushing import buckling_cautions, crushing_cautions
 from crumple.multibody.checks.names import named
 from crumple.multibody.checks.overloaded import overloaded_sections
 from crumple.multibody.checks.struck import struck_cautions
@@ -62,13 +62,15 @@ def energy_put_in(solved: Solved) -> float:
     return max(kinetic, solved.given - solved.lost) + float(np.abs(solved.energy["external_work"]).max())
 
 
-def physics_cautions(structure: Structure, solved: Solved) -> tuple[Caution, ...]:
+def physics_cautions(structure: Structure, solved: Solved, *, slow: bool) -> tuple[Caution, ...]:
     """Cautions of all checks that a multibody run did not pass.
 
     Parameters
     ----------
     structure, solved
         The structure and the result of its run.
+    slow
+        Whether a stage was quasi-static.
     """
     if len(solved.time) < 2:
         return ()
@@ -79,6 +81,7 @@ def physics_cautions(structure: Structure, solved: Solved) -> tuple[Caution, ...
         *rebounds(structure, solved),
         *tensions(structure, solved),
         *crushing_cautions(structure, solved, struck=struck),
+        *(buckling_cautions(structure, solved) if slow else ()),
         *struck_cautions(structure, solved),
         *overloaded_sections(structure, solved),
         *torques_without_twist(structure, solved),

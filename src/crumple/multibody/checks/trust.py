@@ -18,9 +18,12 @@ from crumple.multibody.checks.held_parts import held_part_warnings
 from crumple.multibody.checks.names import named
 from crumple.multibody.checks.overlap import overlap_warnings
 from crumple.multibody.checks.physics import energy_put_in
+from crumple.multibody.run import Run
 from crumple.result import HingeSummary
-from crumple.structure import PlacedHinge, Structure, dented_tubes
+from crumple.structure import PlacedHinge, Structure, dented_tubes, rigid_for_long
+from crumple.structure.hinges.elastic_members import IMPACT
 from crumple.text.names import listed
+from crumple.units import format_quantity
 
 LOST_SHARE = 0.05
 """Share of the energy input that may be lost at the start before a warning is given: a node that is thrown
@@ -58,12 +61,12 @@ SHEARED = (
 SPATIAL = "The motion is spatial: hinges carry rigidly what is not about their own axes."
 
 
-def assumptions(structure: Structure, solver: Solver) -> tuple[str, ...]:
+def assumptions(structure: Structure, solver: Solver, run: Run) -> tuple[str, ...]:
     """Sentences with the assumptions of the model."""
     jointed = dict.fromkeys(hinge.member for hinge in solver.hinges if not hinge.plastic)
     rigid = [name for name in structure.members if name not in jointed]
     found = [
-        *(["Members are rigid between their hinges."] if not jointed else []),
+        *([_rigid(structure, run)] if not jointed else []),
         *([f"{named('Member', rigid)} are rigid between hinges."] if jointed and len(rigid) > 1 else []),
         *([f"Member {rigid[0]} is rigid between hinges."] if jointed and len(rigid) == 1 else []),
         "Masses are rigid lumps.",
@@ -100,6 +103,15 @@ def assumptions(structure: Structure, solver: Solver) -> tuple[str, ...]:
             "together as stiff as the member and yield as its section does with plane walls."
         )
     return tuple(found)
+
+
+def _rigid(structure: Structure, run: Run) -> str:
+    rigid = "Members are rigid between their hinges"
+    if not rigid_for_long(structure, run.settings, run.time_in_motion):
+        return f"{rigid}."
+    longest = format_quantity(IMPACT, "s")
+    advice = "analysis.multibody.members: elastic lets them bend"
+    return f"{rigid}, since the motion is longer than {longest}; {advice}."
 
 
 def _carries(structure: Structure, hinges: list[PlacedHinge]) -> str:

@@ -59,7 +59,7 @@ def law_range(
     docs/theory/measured_curves.md.  Verified in tests/unit/multibody/variants/test_law_range.py.
     """
     run = run_as_solved(run, nominal)
-    bands, without, factors = law_factors(with_elastic_members(structure, run.settings, run.duration))
+    bands, without, factors = law_factors(with_elastic_members(structure, run.settings, run.time_in_motion))
     if not bands:
         return None
     table = solve_variants(structure, run, factors, threads, cancel=cancel, as_answer=True)

@@ -80,7 +80,7 @@ def modes(
     docs/theory/modes.md.  Verified in tests/unit/multibody/variants/test_modes.py.
     """
     run = run_as_solved(run, result)
-    structure = with_elastic_members(structure, run.settings, run.duration)
+    structure = with_elastic_members(structure, run.settings, run.time_in_motion)
     asked = run.settings.mechanism_check
     unasked = asked == "off" or (asked == "auto" and not any_automatic(structure))
     names = [hinge.name for hinge in plastic_hinges(structure)]

@@ -78,7 +78,7 @@ def sensitivities(
     Derivation and limits in docs/theory/sensitivities.md.
     Verified in tests/verification/derivatives/test_sensitivities.py and test_space_sensitivities.py.
     """
-    structure = with_elastic_members(structure, run.settings, run.duration)
+    structure = with_elastic_members(structure, run.settings, run.time_in_motion)
     given = {parameters: None} if isinstance(parameters, str) else parameters
     steps = given if isinstance(given, Mapping) else dict.fromkeys(given)
     in_space = why_spatial(structure, placed_hinges(structure), run) is not None

@@ -179,7 +179,7 @@ def solve_variants(
     ----------
     docs/theory/variants.md.  Verified in tests/unit/multibody/variants/test_variants.py.
     """
-    structure = with_elastic_members(structure, run.settings, run.duration)
+    structure = with_elastic_members(structure, run.settings, run.time_in_motion)
     count = threads or available_cores()
     poll = _poll(progress, cancel)
     sampled = np.asarray(times, float)

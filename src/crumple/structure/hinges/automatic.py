@@ -11,8 +11,8 @@ capacity stays rigid, and changes nothing.
 
 Members of a straight run between supports (held_runs), braced members (braced), and elastic members of
 structures of which an obstacle strikes a rigid joint (joint_reach), also change their length at their hinges,
-unless the input says otherwise.  Tubes of the last two kinds fold by the crushing law of their section; all
-others yield.
+unless the input says otherwise.  Tubes of the last two kinds, and of runs of which a support drives an end,
+fold by the crushing law of their section; all others yield.
 
 A corner whose law is stored has one hinge at its node in place of the candidates in its zone, and the
 branch of a T-joint one in the face on which it ends.
@@ -31,7 +31,7 @@ from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
 from crumple.structure.hinges.joint_reach import strikes_joint
 from crumple.structure.hinges.law_choice import component_text
 from crumple.structure.hinges.lengthening.braced import braced
-from crumple.structure.hinges.lengthening.held_runs import held_runs
+from crumple.structure.hinges.lengthening.held_runs import held_runs, pushed_runs
 from crumple.structure.hinges.lengthening.stopped import stopped
 from crumple.structure.hinges.runs.candidates import Candidate, Strike, candidates_on
 from crumple.structure.hinges.runs.straight_runs import straight_run
@@ -117,10 +117,11 @@ def _keys(
 def _slip(structure: StructureParts, member: str) -> AxialSlip:
     """How a member that lengthens unasked shortens: compressed tubes fold, as columns, others yield.
 
-    Held runs mostly stretch, and yield.  A stored law of folding is used in any case.
+    Held runs that nothing drives mostly stretch, and yield.  A stored law of folding is used in any case.
     """
     law = FOLDING.get(structure.section_of(member).kind)
-    folds = _struck_along(structure, member) or member in braced(structure)
+    pressed = braced(structure) | pushed_runs(structure)
+    folds = _struck_along(structure, member) or member in pressed
     if law is None or not folds or component_text(structure, member, "crush"):
         return AxialSlip()
     return AxialSlip(law=law)

@@ -45,25 +45,25 @@ LAW_TURNS = np.radians(np.arange(0.0, 41.0))
 SLENDER = 10.0
 """Length over depth from which the deflection by shear is neglected."""
 IMPACT = 0.5
-"""Longest run in which members bend unless the input says so [s]."""
+"""Longest motion in which members bend unless the input says so [s]."""
 KEPT = 1024
 """Records kept: equal members of a frame share one."""
 
 
-def with_elastic_members(structure: Parts, settings: MultibodySettings, duration: float) -> Parts:
+def with_elastic_members(structure: Parts, settings: MultibodySettings, moving: float) -> Parts:
     """The structure with the members elastic that do not say otherwise, if the settings say so.
 
-    `auto` says so where automatic hinges are asked for, in runs of up to `IMPACT`: in longer ones vibration
-    takes most of the steps, and decays without effect.
+    `auto` says so where automatic hinges are asked for, in motions of up to `IMPACT`: in longer ones
+    vibration takes most of the steps, and decays without effect.
 
     Parameters
     ----------
     structure, settings
         As of the input.
-    duration
-        Of the run [s].
+    moving
+        Time in motion, without quasi-static stages [s].
     """
-    automatic = duration <= IMPACT and any_automatic(structure)
+    automatic = moving <= IMPACT and any_automatic(structure)
     if settings.members == "rigid" or (settings.members == "auto" and not automatic):
         return structure
     members = {
@@ -72,6 +72,11 @@ def with_elastic_members(structure: Parts, settings: MultibodySettings, duration
     }
     changed = any(spec is not structure.members[name] for name, spec in members.items())
     return structure.with_elastic(members) if changed else structure
+
+
+def rigid_for_long(structure: StructureParts, settings: MultibodySettings, moving: float) -> bool:
+    """Whether members do not bend for the only reason that the motion is long; arguments as above."""
+    return settings.members == "auto" and moving > IMPACT and any_automatic(structure)
 
 
 def _elastic(spec: Member, segments: int) -> Member:

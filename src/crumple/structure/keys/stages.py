@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal
 
 from pydantic import model_validator
@@ -101,3 +102,8 @@ class Stage(Spec):
             what = "a quasi-static stage has no inertia, so this has no effect"
             refuse(what, key=key, todo="make the stage dynamic, or drive a support or an obstacle")
         return self
+
+
+def time_in_motion(duration: float, stages: Sequence[Stage]) -> float:
+    """Time with inertia [s]: in quasi-static stages time only orders the events."""
+    return sum(stage.duration for stage in stages if stage.kind == "dynamic") if stages else duration

@@ -19,7 +19,7 @@ class MultibodySettings(Spec):
     """Solver kernel: planar tree, spatial, or the tree wherever it is applicable."""
     members: Literal["auto", "elastic", "rigid"] = "auto"
     """Whether members between their hinges are rigid bars, or bend and yield along their length; auto: they
-    bend if automatic hinges are asked for anywhere, in runs of up to 0.5 s."""
+    bend if automatic hinges are asked for anywhere, in motions of up to 0.5 s without quasi-static stages."""
     segments: Annotated[int, Field(ge=2, le=MOST_SEGMENTS)] = SEGMENTS
     """Segments of each elastic member; a member that states its own keeps them."""
     resolved_frequency: PositiveFrequency = 500.0

@@ -35,7 +35,7 @@ LENGTH = 0.048 * math.sqrt(24.0)
 
 def solved(tube):
     analysis = loads(TEXT.replace("TUBE", tube), file="l.yaml", directory=".")
-    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
     return structure, solve(with_frames(analysis))
 
 
@@ -98,7 +98,7 @@ def test_a_corner_that_slips_in_its_plane_turns_about_one_axis_and_distorts_noth
     text = TEXT.replace("TUBE", RECTANGULAR).replace("[0 m/s, 8 m/s, 0 m/s]", "[-2 m/s, 0 m/s, -2 m/s]")
     slips = text.replace("hinges: auto", "hinges: {axial: true}")
     analysis = loads(slips, file="l.yaml", directory=".")
-    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
     result = solve(with_frames(analysis))
     assert "hinge.corner-corner.slip.x.force" in result.channels
     assert "hinge.corner-corner.moment.x" not in result.channels

@@ -2,13 +2,14 @@
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from tests.support.structures import STEEL
 
 from crumple.analysis import load, loads, solve
 from crumple.hinge import build_axial_law
 from crumple.multibody import Run, solve_multibody
-from crumple.structure import MultibodySettings, Outputs, SectionForce, Structure
+from crumple.structure import MultibodySettings, Outputs, SectionForce, Stage, Structure
 
 SIDE, WALL = 0.05, 0.0015
 CRUSH = Path(__file__).parents[4] / "examples" / "07_axial_crush.yaml"
@@ -75,3 +76,28 @@ def test_rigid_members_with_automatic_hinges_are_told_that_elastic_ones_shorten(
     texts = [text for text in result.warnings if "along its axis" in text]
     assert len(texts) == warned
     assert all("or 'members: elastic' in analysis.multibody" in text for text in texts)
+
+
+@pytest.mark.parametrize(
+    ("share", "kind", "members", "named"),
+    [
+        (1.1, "quasi-static", "rigid", True),
+        (0.9, "quasi-static", "rigid", False),
+        (1.1, "dynamic", "rigid", False),
+        (0.9, "quasi-static", "elastic", False),
+    ],
+)
+def test_rigid_bars_that_would_buckle_under_slow_loading_are_named(share, kind, members, named):
+    whole = column(0.0)
+    section, steel = whole.section_of("ab"), whole.material_of("ab")
+    euler = np.pi**2 * steel.youngs_modulus * section.second_moment("y") / 3.0**2
+    long = column(share * euler).model_copy(update={"nodes": {"a": (0, 0, 0), "b": (0, 0, 3.0)}})
+    stage = Stage.model_validate({"name": "push", "kind": kind, "duration": 0.02})
+    run = Run(0.02, 1e-3, MultibodySettings(members=members), stages=(stage,))
+    cautions = [one for one in solve_multibody(long, run).cautions if one.code == "buckling"]
+    assert len(cautions) == named
+    for one in cautions:
+        assert one.value == pytest.approx(share * euler, rel=1e-3)
+        assert one.limit == pytest.approx(euler)
+        assert "1.1 times the load of Euler between pinned ends (ab: " in one.text
+        assert "let members bend (analysis.multibody.members: elastic)" in one.text

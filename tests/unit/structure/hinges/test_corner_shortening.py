@@ -44,7 +44,7 @@ def corner(hinges="auto", obstacles=WALL, members="elastic", wall="2 mm"):
         .replace("GAUGE", wall)
     )
     analysis = loads(text)
-    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
     return next(hinge for hinge in placed_hinges(structure) if hinge.name == "corner-bend")
 
 

@@ -7,7 +7,7 @@ from tests.support.multibody.frames import CLAMP, member, structure
 
 from crumple.analysis import load
 from crumple.multibody import Run, solve_multibody
-from crumple.structure import AutomaticHinges, MultibodySettings, placed_hinges, with_elastic_members
+from crumple.structure import AutomaticHinges, MultibodySettings, Stage, placed_hinges, with_elastic_members
 from crumple.structure.parts import OF_ANY_STIFFNESS
 
 SHORT, LONG = 0.1, 2.0
@@ -53,6 +53,28 @@ def test_a_rigid_member_does_not_bend():
     whole = frame(hinges="auto")
     members = whole.members | {"bc": whole.members["bc"].model_copy(update={"rigid": True})}
     assert bending(whole.model_copy(update={"members": members}), SHORT) == ["ab"]
+
+
+@pytest.mark.parametrize(
+    ("kinds", "moving"), [((), 2.0), (("dynamic", "dynamic"), 2.0), (("dynamic", "quasi-static"), 1.5)]
+)
+def test_the_time_of_quasi_static_stages_does_not_count(kinds, moving):
+    lasting = dict(zip("ab", (1.5, 0.5), strict=True))
+    stages = [
+        {"name": name, "kind": kind, "duration": lasting[name]}
+        for name, kind in zip("ab", kinds, strict=False)
+    ]
+    run = Run(2.0, 0.1, stages=tuple(Stage.model_validate(stage) for stage in stages))
+    assert run.time_in_motion == moving
+
+
+def test_rigid_bars_of_a_long_motion_say_why():
+    whole = frame(hinges="auto", initial_velocity=[{"rotation": 5.0, "axis": (0, 1, 0)}])
+    said = "since the motion is longer than 500 ms; analysis.multibody.members: elastic lets them bend"
+    for duration, settings, expected in ((0.51, {}, True), (0.51, {"members": "rigid"}, False)):
+        run = Run(duration, 0.05, MultibodySettings(**settings), checks=False)
+        (rigid,) = (text for text in solve_multibody(whole, run).assumptions if "Members are rigid" in text)
+        assert (said in rigid) == expected
 
 
 def test_the_result_says_so():

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from tests.support.multibody.frames import member, structure
 
+from crumple.hinge import Freedom
 from crumple.structure import plastic_hinges
-from crumple.structure.hinges.lengthening.held_runs import held_runs
+from crumple.structure.hinges.lengthening.held_runs import held_runs, pushed_runs
 
 LINE = {"a": (0.0, 0.0, 0.0), "b": (0.4, 0.0, 0.0), "c": (1.2, 0.0, 0.0)}
 RUN = {"ab": member("a", "b"), "bc": member("b", "c")}
@@ -19,6 +20,13 @@ def line(members=None, far="all", nodes=None, **parts):
     )
 
 
+def pressed_falls(hinge):
+    """Whether the force of a hinge falls when it is shortened, as that of a fold does."""
+    (axial,) = (one.record for one in hinge.spatial.components if one.freedom == Freedom.AXIAL)
+    force = axial.negative.moment
+    return force.min() < 0.9 * force.max()
+
+
 @pytest.mark.parametrize("far", ["all", ["x", "y", "z"], ["x"]])
 def test_members_in_line_between_supports_that_hold_them_along_are_a_run(far):
     assert held_runs(line(far=far)) == {"ab", "bc"}
@@ -27,6 +35,21 @@ def test_members_in_line_between_supports_that_hold_them_along_are_a_run(far):
 @pytest.mark.parametrize("far", [None, ["y", "z"], ["z", "rx", "ry", "rz"]])
 def test_a_run_that_can_move_along_itself_at_one_end_is_none(far):
     assert held_runs(line(far=far)) == frozenset()
+
+
+def test_a_run_whose_end_is_driven_may_be_pressed_and_then_folds_or_buckles():
+    supports = {"near": {"node": "a", "fix": "all"}, "far": {"node": "c", "fix": ["y", "z"]}}
+    pushed = {"x": {"table": {"time": (0.0, 1.0), "value": (0.0, -0.05)}}}
+    held = structure(LINE, RUN, hinges="auto", supports=supports | {"far": {"node": "c", "fix": "all"}})
+    driven = structure(
+        LINE, RUN, hinges="auto", supports=supports | {"far": supports["far"] | {"motion": pushed}}
+    )
+    assert held_runs(held) == held_runs(driven) == pushed_runs(driven) == {"ab", "bc"}
+    assert pushed_runs(held) == frozenset()
+    middle = {hinge.name for hinge in plastic_hinges(driven)} - {hinge.name for hinge in plastic_hinges(held)}
+    assert len(middle) == 1
+    assert not any(pressed_falls(hinge) for hinge in plastic_hinges(held))
+    assert all(pressed_falls(hinge) for hinge in plastic_hinges(driven))
 
 
 def test_a_support_within_a_run_holds_only_what_lies_between_supports():

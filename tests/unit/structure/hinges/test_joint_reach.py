@@ -111,7 +111,7 @@ def test_a_joint_is_struck_where_it_is_nearest_to_what_moves():
 )
 def test_elastic_members_yield_along_their_axes_where_a_joint_is_struck(at, hinges, yields):
     analysis = struck(at, hinges=hinges)
-    bends = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    bends = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
     assert {Freedom.AXIAL in freedoms(hinge) for hinge in plastic_hinges(bends)} == {yields}
     # rigid bars keep their length
     assert not any(Freedom.AXIAL in freedoms(hinge) for hinge in plastic_hinges(analysis.structure))
@@ -129,7 +129,7 @@ def test_tubes_fold_by_the_law_of_their_section_and_others_yield(section, folds)
     begin, end = STRUCK.split("square_tube, side: 40 mm")
     text = (begin + section + end).format(at="[0 m, 0 m, -0.1 m]", more=RISES, hinges="auto")
     analysis = loads(text)
-    bends = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    bends = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
     for hinge in plastic_hinges(bends):
         axial = hinge.spatial.components[hinge.spatial.freedoms.index(Freedom.AXIAL)].record
         least, most = axial.negative.moment.min(), axial.negative.moment.max()

@@ -140,7 +140,7 @@ def test_a_motion_that_changes_a_length_is_lost_at_the_start():
 def test_members_of_a_stopped_structure_shorten(held):
     support = ("obstacles:", "supports: {guide: {node: rear, fix: [y, z, rx, ry, rz]}}\nobstacles:")
     read = loads(RAIL.replace(*support) if held else RAIL)
-    whole = with_elastic_members(read.structure, read.multibody, read.duration)
+    whole = with_elastic_members(read.structure, read.multibody, read.time_in_motion)
     (place,) = hinge_places(whole)
     # between free ends it is in the middle
     assert place.station == pytest.approx(0.2) or held

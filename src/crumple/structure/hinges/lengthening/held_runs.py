@@ -10,6 +10,7 @@ this reserve is below the stretch at which its walls yield: it then cannot move 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -30,11 +31,21 @@ ALONG = math.sqrt(2.0 * RESERVE)
 
 def held_runs(structure: StructureParts) -> frozenset[str]:
     """Members of straight runs whose ends are both held along the run."""
-    return structure.kept.once("held runs", "", lambda: _held_runs(structure))
+    return frozenset(_held_runs(structure))
 
 
-def _held_runs(structure: StructureParts) -> frozenset[str]:
-    found: set[str] = set()
+def pushed_runs(structure: StructureParts) -> frozenset[str]:
+    """Those of which a support drives an end: it may press them, and then they fold or buckle."""
+    return frozenset(name for name, driven in _held_runs(structure).items() if driven)
+
+
+def _held_runs(structure: StructureParts) -> Mapping[str, bool]:
+    """Members of held runs, and whether an end of theirs is driven."""
+    return structure.kept.once("held runs", "", lambda: _found_runs(structure))
+
+
+def _found_runs(structure: StructureParts) -> dict[str, bool]:
+    found: dict[str, bool] = {}
     seen: set[str] = set()
     for member, spec in structure.members.items():
         if member in seen or not structure.has_line(member):
@@ -43,8 +54,9 @@ def _held_runs(structure: StructureParts) -> frozenset[str]:
         run = {member, *first, *second}
         seen |= run
         if one is not None and other is not None and _is_straight(structure, run, (one, other)):
-            found |= run
-    return frozenset(found)
+            supports = (*structure.supports_at[one], *structure.supports_at[other])
+            found |= dict.fromkeys(run, any(support.driven for _, support in supports))
+    return found
 
 
 def _to_support(structure: StructureParts, member: str, node: str) -> tuple[list[str], str | None]:

@@ -15,6 +15,7 @@ from crumple.section import Axis, fold_distance, half_fold_length
 from crumple.structure.hinges.corners import corners
 from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.lengthening.braced import braced
+from crumple.structure.hinges.lengthening.held_runs import pushed_runs
 from crumple.structure.hinges.lengthening.stopped import stopped
 from crumple.structure.hinges.runs.ends import carries_moment, passes_moment
 from crumple.structure.hinges.runs.straight_runs import StraightRun
@@ -83,7 +84,7 @@ def candidates_on(
         Bending axes of the candidates: the longest of their folds counts.
     spacing
         Largest distance between candidates [m]; None: only at the ends, at nodes, in the middle of braced
-        members, and where obstacles strike.
+        members and pushed runs, and where obstacles strike.
     """
 
     def find() -> Mapping[str, list[Candidate]]:
@@ -115,7 +116,8 @@ def _candidates(
     struck = [(f"{name}-struck" if name in (*run.nodes, *run.between) else name, at) for name, at in struck]
     number = 1 if spacing is None else max(1, math.ceil((last - first) / spacing * (1.0 - 1e-9)))
     # a strut buckles with a hinge between those of its ends, which an obstacle places where it strikes
-    number = max(2, number) if not struck and not braced(structure).isdisjoint(run.stretches) else number
+    struts = braced(structure) | pushed_runs(structure)
+    number = max(2, number) if not struck and not struts.isdisjoint(run.stretches) else number
     # what is pressed between free ends folds somewhere
     pressed_free = not first_held and not last_held and stopped(structure)
     number = max(2, number) if pressed_free and structure.members[names[0]].elastic else number
