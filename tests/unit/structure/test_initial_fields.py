@@ -160,9 +160,9 @@ def test_a_mass_that_stays_behind_is_a_caution():
     (one,) = doubts(UP | ARM)
     assert (one.code, one.place, one.value, one.unit) == ("standing_mass", "mass lump", LUMP, "kg")
     assert one.text == (
-        "Mass not thrown with 'members' of initial_velocity: lump at node b (arm is thrown, beam is not thrown "
-        "alike). A mass moves with members if all that end at its node have the same velocity. Where it "
-        "should move, add its node to this entry: 'nodes: [b]'."
+        "Mass not thrown with 'members' of initial_velocity: lump at node b (arm is thrown, beam is not "
+        "thrown alike). A mass moves with members if all that end at its node have the same velocity. Where "
+        "it should move, add its node to this entry: 'nodes: [b]'."
     )
     assert doubts(UP | ARM, TURN | BEAM)
     assert doubts(stages=[Stage(name="later", duration=1e-3, initial_velocity=[UP | ARM])])
