@@ -138,7 +138,7 @@ def with_doubts(result: Result, analysis: Analysis) -> Result:
     from crumple.result import Caution, sentences  # noqa: PLC0415
     from crumple.structure.checks.doubtful import input_doubts  # noqa: PLC0415
 
-    found = input_doubts(analysis.structure, analysis.duration)
+    found = input_doubts(analysis.structure, analysis.duration, analysis.stages)
     if not found or not result.time.size:
         return result
     own = [Caution(one.code, one.value, one.limit, one.unit, one.place, one.text) for one in found]

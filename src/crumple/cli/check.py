@@ -55,7 +55,7 @@ def _check_input(file: Path, fidelity: Fidelity) -> None:
     if found:
         raise InputError(list(found.values()))
     typer.echo(f"{file}: no mistakes found")
-    doubts = input_doubts(source.analysis.structure, source.analysis.duration)
+    doubts = input_doubts(source.analysis.structure, source.analysis.duration, source.analysis.stages)
     for text in dict.fromkeys(one.text for one in doubts):
         typer.echo(f"  Caution: {text}")
     for solver in fidelity.solvers:

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from crumple.units import format_quantity
+
 MOST_HINGES = 3
 """Hinges that a sentence names of a mode."""
 MOST_RUNS = 3
@@ -55,22 +57,39 @@ class Mode:
     Attributes
     ----------
     hinges
-        Those that turn by more than a fifth of the largest rotation in its first run, the largest first.
+        Those that turn by more than a fifth of the largest rotation of all runs, the largest first; where
+        none does, by more than a fifth of the largest in its own first run.
     rotations
         Their plastic rotations at the end of that run [rad], without sign.
     runs
         Names of the runs.
+    slips
+        Hinges that shorten (less than 0) or lengthen along their members, and by how much at the end of that
+        run [m], the largest first; where no hinge turns by a fifth of the largest rotation of all runs.
     """
 
     hinges: tuple[str, ...]
     rotations: tuple[float, ...]
     runs: tuple[str, ...]
+    slips: tuple[tuple[str, float], ...] = ()
 
     @property
     def told(self) -> str:
-        """Its largest rotations."""
+        """Its largest rotations, and what is crushed where these are small."""
+        said = (self._turns, self._slips)
+        return ", and ".join(filter(None, said)) or "no hinge turns"
+
+    @property
+    def _slips(self) -> str:
+        return ", ".join(
+            f"{name} {'shortens' if slip < 0.0 else 'lengthens'} by {format_quantity(abs(slip), 'm', 2)}"
+            for name, slip in self.slips[:MOST_HINGES]
+        )
+
+    @property
+    def _turns(self) -> str:
         if not self.hinges:
-            return "no hinge turns"
+            return ""
         angles = (f"{math.degrees(angle):.2g}°" for angle in self.rotations[:MOST_HINGES])
         shown = ", ".join(map(" ".join, zip(self.hinges[:MOST_HINGES], angles, strict=True)))
         return shown + (
@@ -124,5 +143,10 @@ def modes_of(text: Mapping[str, Any] | None) -> Modes | None:
     """Modes from their entries as they are stored; None without."""
     if text is None:
         return None
-    found = (Mode(tuple(m["hinges"]), tuple(m["rotations"]), tuple(m["runs"])) for m in text["modes"])
-    return Modes(tuple(found), tuple(text["failed"]))
+    return Modes(tuple(map(_mode_of, text["modes"])), tuple(text["failed"]))
+
+
+def _mode_of(text: Mapping[str, Any]) -> Mode:
+    # files of earlier versions have no slips
+    slips = tuple((name, float(slip)) for name, slip in text.get("slips", ()))
+    return Mode(tuple(text["hinges"]), tuple(text["rotations"]), tuple(text["runs"]), slips)

@@ -16,6 +16,7 @@ from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import turned
 from crumple.structure import InitialVelocity, NodalImpulse, Structure
 from crumple.structure.geometry import cross
+from crumple.structure.initial_fields import fields_of_mass, fields_of_member
 
 FASTEST = 1e5
 """Speed [m/s] up to which an impulse may accelerate a part before joints slow it down."""
@@ -135,20 +136,12 @@ def moving_parts(
     structure: Structure, parts: Parts, given: Sequence[InitialVelocity]
 ) -> Iterator[tuple[RigidMass, int, list[InitialVelocity]]]:
     """Every part with mass, its body, and the velocity fields that act on it."""
-
-    def fields(kind: str, name: str) -> list[InitialVelocity]:
-        def acts(field: InitialVelocity) -> bool:
-            everywhere = field.nodes is None and field.members is None
-            return everywhere or name in (getattr(field, kind) or ())
-
-        return [field for field in given if acts(field)]
-
     for name, pieces in parts.pieces.items():
-        if found := fields("members", name):
+        if found := fields_of_member(given, name):
             for piece in pieces:
                 yield piece_mass(structure, name, piece.start, piece.end), piece.body, found
     for mass in structure.masses.values():
-        if found := fields("nodes", mass.node):
+        if found := fields_of_mass(structure, given, mass.node):
             yield lump_mass(structure, mass), parts.node_body[mass.node], found
 
 

@@ -19,6 +19,7 @@ from crumple.multibody.answer.poses import SpatialPoses
 from crumple.multibody.answer.solved import CrushedContact, HingeHistory, Solved
 from crumple.multibody.bodies.rigid import lump_mass, piece_mass
 from crumple.multibody.checks.crushing import buckling_cautions, crushing_cautions
+from crumple.multibody.checks.folded_over import folded_over
 from crumple.multibody.checks.names import named
 from crumple.multibody.checks.overloaded import overloaded_sections
 from crumple.multibody.checks.struck import struck_cautions
@@ -79,6 +80,7 @@ def physics_cautions(structure: Structure, solved: Solved, *, slow: bool) -> tup
     return (
         *falling_energies(solved, total),
         *rebounds(structure, solved),
+        *folded_over(structure, solved),
         *tensions(structure, solved),
         *crushing_cautions(structure, solved, struck=struck),
         *(buckling_cautions(structure, solved) if slow else ()),

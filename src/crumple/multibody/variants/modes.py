@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -39,6 +40,8 @@ APART = 0.3
 """Difference of a hinge's rotation between two modes over the largest rotation of all runs [-]."""
 ROOM = math.radians(2.0)
 """Difference up to which two runs have the same mode in any case [rad]."""
+SHORT = 1e-3
+"""Slip of a hinge along its member below which it is not named [m]."""
 RESULT = "as given"
 """Name of the run that is the result itself."""
 Changes = dict[str, float]
@@ -90,35 +93,51 @@ def modes(
     runs |= _stiffness(structure, run)
     table = solve_variants(structure, run, _columns(structure, runs), threads, progress, cancel)
     table.need_all("the modes of collapse are")
-    given = {name: float(result[f"hinge.{name}.plastic_rotation"][-1]) for name in names}
-    turned: dict[str, dict[str, float] | None] = {RESULT: given}
+    last = {name: channel.values[-1] for name, channel in result.channels.items()}
+    found: dict[str, _Ended | None] = {RESULT: _ended(last, names)}
     for i, (name, changes) in enumerate(runs.items()):
         if table.reason[i] == OTHER_PARTS:
-            turned[name] = _alone(changed(structure, changes), run, changes, threads, cancel)
+            found[name] = _alone(changed(structure, changes), run, changes, threads, cancel)
         else:
-            turned[name] = _rotations(table, i, names) if table.status[i].ok else None
-    ended = {name: rotations for name, rotations in turned.items() if rotations is not None}
-    folds = list(dict.fromkeys(hinge for rotations in ended.values() for hinge in rotations))
+            found[name] = _row(table, i, names) if table.status[i].ok else None
+    ended = {name: one for name, one in found.items() if one is not None}
+    folds = list(dict.fromkeys(hinge for one in ended.values() for hinge in one.rotations))
     sizes = {
-        name: np.array([abs(rotations.get(hinge, 0.0)) for hinge in folds])
-        for name, rotations in ended.items()
+        name: np.array([abs(one.rotations.get(hinge, 0.0)) for hinge in folds]) for name, one in ended.items()
     }
-    return Modes(grouped(folds, sizes), tuple(name for name in turned if name not in ended))
+    slips = {name: one.slips for name, one in ended.items()}
+    return Modes(grouped(folds, sizes, slips), tuple(name for name in found if name not in ended))
+
+
+@dataclass(frozen=True)
+class _Ended:
+    """Plastic rotations [rad] and slips along the members [m] of the hinges at the end of a run."""
+
+    rotations: Mapping[str, float]
+    slips: Mapping[str, float]
+
+
+def _ended(last: Mapping[str, float], hinges: list[str]) -> _Ended:
+    """From the last values of channels by name."""
+    slips = {name: last.get(f"hinge.{name}.slip.x.plastic_travel") for name in hinges}
+    return _Ended(
+        {name: float(last[f"hinge.{name}.plastic_rotation"]) for name in hinges},
+        {name: float(slip) for name, slip in slips.items() if slip is not None},
+    )
+
+
+def _row(table: VariantTable, row: int, hinges: list[str]) -> _Ended:
+    return _ended({name: values[row] for name, values in table.quantities.items()}, hinges)
 
 
 def _alone(
     structure: Structure, run: Run, changes: Changes, threads: int | None, cancel: Cancel | None
-) -> dict[str, float] | None:
-    """Rotations of a run whose parts no batch has: an obstacle that strikes elsewhere folds another place."""
+) -> _Ended | None:
+    """The end of a run whose parts no batch has: an obstacle that strikes elsewhere folds another place."""
     table = solve_variants(structure, run, changes, threads, None, cancel)
     table.need_all("the modes of collapse are")
     names = [hinge.name for hinge in plastic_hinges(structure)]
-    return _rotations(table, 0, names) if table.status[0].ok else None
-
-
-def _rotations(table: VariantTable, row: int, hinges: list[str]) -> dict[str, float]:
-    """Plastic rotations at the end of a run [rad], by hinge."""
-    return {name: float(table[f"hinge.{name}.plastic_rotation"][row]) for name in hinges}
+    return _row(table, 0, names) if table.status[0].ok else None
 
 
 def is_impact(structure: Structure, run: Run) -> bool:
@@ -131,12 +150,22 @@ def is_impact(structure: Structure, run: Run) -> bool:
     return bool(dynamic) and (thrown or met or any(s.initial_velocity or s.impulses for s in dynamic))
 
 
-def grouped(names: list[str], ended: Mapping[str, Floats]) -> tuple[Mode, ...]:
-    """Runs by mode; rotations at the end [rad], without sign, in the order of the hinges' names."""
+def grouped(
+    names: list[str], ended: Mapping[str, Floats], slips: Mapping[str, Mapping[str, float]] | None = None
+) -> tuple[Mode, ...]:
+    """Runs by mode.
+
+    Parameters
+    ----------
+    names
+        Of the hinges.
+    ended
+        Rotations at the end of each run [rad], without sign, in the order of the hinges' names.
+    slips
+        Slips of hinges along their members at the end of each run [m].
+    """
     largest = max(float(values.max()) for values in ended.values())
-    if largest <= NOTHING:
-        return (Mode((), (), tuple(ended)),)
-    part, apart = PART * largest, max(APART * largest, ROOM)
+    apart = max(APART * largest, ROOM)
     groups: list[tuple[Floats, list[str]]] = []
     for name, values in ended.items():
         for first, runs in groups:
@@ -145,12 +174,28 @@ def grouped(names: list[str], ended: Mapping[str, Floats]) -> tuple[Mode, ...]:
                 break
         else:
             groups.append((values, [name]))
-    found = []
-    for first, runs in groups:
-        order = largest_first({k: float(value) for k, value in enumerate(first) if value > part})
-        hinges = tuple(names[k] for k in order)
-        found.append(Mode(hinges, tuple(float(first[k]) for k in order), tuple(runs)))
-    return tuple(found)
+    return tuple(_mode(names, first, (slips or {}).get(runs[0], {}), runs, largest) for first, runs in groups)
+
+
+def _mode(
+    names: list[str], turned: Floats, slips: Mapping[str, float], runs: list[str], largest: float
+) -> Mode:
+    """A mode by what its first run has; `largest`: rotation of all runs [rad]."""
+    own = float(turned.max())
+    small = own <= PART * largest or own <= NOTHING
+    part = max(PART * (own if small else largest), NOTHING)
+    order = largest_first({k: float(value) for k, value in enumerate(turned) if value > part})
+    crushed: list[str] = []
+    if small:
+        sizes = {name: abs(slip) for name, slip in slips.items()}
+        least = max(PART * max(sizes.values(), default=0.0), SHORT)
+        crushed = largest_first({name: size for name, size in sizes.items() if size > least})
+    return Mode(
+        tuple(names[k] for k in order),
+        tuple(float(turned[k]) for k in order),
+        tuple(runs),
+        tuple((name, slips[name]) for name in crushed),
+    )
 
 
 def _columns(structure: Structure, runs: Mapping[str, Changes]) -> dict[str, Floats]:

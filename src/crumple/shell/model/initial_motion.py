@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +12,7 @@ from crumple.shell.mesh.mesh import Mesh
 from crumple.shell.mesh.quality import areas, wall_density, wall_metals, wall_thickness
 from crumple.shell.model.bodies import Body
 from crumple.structure import InitialVelocity, Structure
+from crumple.structure.initial_fields import fields_of_mass, fields_of_member
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,14 +44,15 @@ def shell_initial_motion(structure: Structure, mesh: Mesh, bodies: tuple[Body, .
     """
     mass, inertia = nodal_masses(structure, mesh)
     velocity, spin = np.zeros((len(mesh.position), 3)), np.zeros((len(mesh.position), 3))
+    given = structure.initial_velocity
     # a node that two members share moves with the first
     for name, tube in reversed(mesh.tubes.items()):
         nodes = tube.nodes.reshape(-1)
-        velocity[nodes], spin[nodes] = _field(structure, "members", name, mesh.position[nodes])
+        velocity[nodes], spin[nodes] = _motion(fields_of_member(given, name), mesh.position[nodes])
     energy = float((mass * (velocity**2).sum(axis=1) + inertia * (spin**2).sum(axis=1)).sum()) / 2
     for body in bodies:
         for node, lump in body.lumps.items():
-            lump_velocity, lump_spin = _field(structure, "nodes", node, lump.centre[None])
+            lump_velocity, lump_spin = _motion(fields_of_mass(structure, given, node), lump.centre[None])
             energy += lump.energy(lump_velocity[0], lump_spin[0])
         centre, v, w = _rigid_motion(structure, mesh, body, (mass, inertia), (velocity, spin))
         nodes = body.nodes
@@ -79,17 +82,13 @@ def _rotary_factor(structure: Structure, mesh: Mesh) -> Floats:
     return np.asarray((3 * shear / (plane - shear))[number])
 
 
-def _field(structure: Structure, kind: str, name: str, points: Floats) -> tuple[Floats, Floats]:
-    """Sum of the fields that act on a member or node: velocities and angular velocities at points, (n, 3)."""
+def _motion(fields: Sequence[InitialVelocity], points: Floats) -> tuple[Floats, Floats]:
+    """Sum of fields: velocities [m/s] and angular velocities [rad/s] at points, (n, 3) each."""
     velocity, spin = np.zeros(points.shape), np.zeros(points.shape)
-    for field in structure.initial_velocity:
-        everywhere = field.nodes is None and field.members is None
-        if everywhere or name in (getattr(field, kind) or ()):
-            rate = _rate(field)
-            velocity += np.asarray(field.translation, float) + np.cross(
-                rate, points - np.asarray(field.about)
-            )
-            spin += rate
+    for field in fields:
+        rate = _rate(field)
+        velocity += np.asarray(field.translation, float) + np.cross(rate, points - np.asarray(field.about))
+        spin += rate
     return velocity, spin
 
 
@@ -119,7 +118,8 @@ def _rigid_motion(
     momentum, tensor = mass @ velocity, inertia.sum() * np.eye(3) + _about(mass, arm)
     angular = np.cross(arm, mass[:, None] * velocity).sum(axis=0) + inertia @ spin
     for node, lump in lumps:
-        ((v,), (w,)) = _field(structure, "nodes", node, lump.centre[None])
+        fields = fields_of_mass(structure, structure.initial_velocity, node)
+        ((v,), (w,)) = _motion(fields, lump.centre[None])
         arm = lump.centre - centre
         momentum = momentum + lump.mass * v
         angular = angular + np.cross(arm, lump.mass * v) + lump.inertia @ w

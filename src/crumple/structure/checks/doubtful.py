@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,9 +26,11 @@ from numpy.typing import NDArray
 
 from crumple.hinge.corner.in_plane import SMALLEST
 from crumple.numeric.arrays import Floats
+from crumple.structure.checks.standing import standing_doubts
 from crumple.structure.checks.unusual import Unusual, unusual_values
 from crumple.structure.geometry import NARROWEST
 from crumple.structure.hinges.corners import leaving
+from crumple.structure.keys.stages import Stage
 from crumple.structure.parts import StructureParts
 from crumple.text.names import listed
 from crumple.units import format_quantity
@@ -107,8 +109,10 @@ def doubtful_members(structure: StructureParts) -> tuple[Unusual, ...]:
     )
 
 
-def input_doubts(structure: StructureParts, duration: float) -> tuple[Unusual, ...]:
-    """What is to be said of an input before it is solved: unusual values, then doubtful members.
+def input_doubts(
+    structure: StructureParts, duration: float, stages: Sequence[Stage] = ()
+) -> tuple[Unusual, ...]:
+    """What is to be said of an input before it is solved: unusual values, doubtful members, standing masses.
 
     Parameters
     ----------
@@ -116,8 +120,14 @@ def input_doubts(structure: StructureParts, duration: float) -> tuple[Unusual, .
         Checked.
     duration
         Of the run [s].
+    stages
+        Of the run.
     """
-    return (*unusual_values(structure, duration), *doubtful_members(structure))
+    return (
+        *unusual_values(structure, duration),
+        *doubtful_members(structure),
+        *standing_doubts(structure, stages),
+    )
 
 
 def double_members(structure: StructureParts) -> frozenset[str]:

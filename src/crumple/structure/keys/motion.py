@@ -101,9 +101,15 @@ class InitialVelocity(Spec):
     axis: Direction | None = None
     """Direction of the axis of rotation, right-handed; of any length."""
     nodes: tuple[Name, ...] | None = None
-    """Only these nodes; without `nodes` and `members` the whole structure."""
+    """Only masses at these nodes; without `nodes` and `members` the whole structure."""
     members: tuple[Name, ...] | None = None
-    """Only these members."""
+    """Only these members, and masses at nodes at which all members have this motion; not a mass whose node
+    any entry has in `nodes`."""
+
+    @property
+    def everywhere(self) -> bool:
+        """Whether it moves the whole structure."""
+        return self.nodes is None and self.members is None
 
     @property
     def rate(self) -> Floats:

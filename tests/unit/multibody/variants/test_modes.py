@@ -1,7 +1,7 @@
 """Modes of collapse: the S-rail slides or sticks, runs are grouped by rotations, obstacles are moved."""
 
 import json
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +17,7 @@ from crumple.multibody.variants.contact_points import contact_points
 from crumple.multibody.variants.modes import _alone, grouped, is_impact
 from crumple.multibody.variants.variants import solve_variants
 from crumple.result import read, summary, write
+from crumple.result.nearby import Mode, Modes, modes_of
 from crumple.structure import changed, plastic_hinges
 
 RAIL = Path("examples/08_s_rail.yaml").read_text(encoding="utf-8")
@@ -121,6 +122,63 @@ def test_runs_are_grouped_by_rotations():
     # two degrees are no other mode, however small all rotations are
     assert len(grouped(["a"], {"as given": np.radians([0.1]), "other": np.radians([2.0])})) == 1
     assert grouped(["a"], {"as given": np.zeros(1)})[0].hinges == ()
+
+
+def test_a_mode_in_which_hinges_hardly_turn_says_what_is_crushed():
+    turned = {
+        "as given": np.radians([170.0, 160.0, 0.0]),
+        "crushed": np.radians([0.0, 12.0, 26.0]),
+        "still": np.radians([0.0, 0.0, 0.01]),
+    }
+    slips = {"as given": {"a": -0.012, "b": -0.01}, "crushed": {"a": -0.0489, "b": 0.0253, "c": -0.0009}}
+    given, crushed, *_ = grouped(["a", "b", "c"], turned, slips)
+    assert given.slips == ()
+    assert given.told == "a 1.7e+02°, b 1.6e+02°"
+    assert crushed.slips == (("a", -0.0489), ("b", 0.0253))
+    # a fifth of its own largest rotation
+    assert crushed.told == "c 26°, b 12°, and a shortens by 49 mm, b lengthens by 25 mm"
+    only = {"as given": turned["as given"], "crushed": np.radians([0.0, 0.0, 0.01])}
+    assert grouped(["a", "b", "c"], only, slips)[1].told == "a shortens by 49 mm, b lengthens by 25 mm"
+    assert grouped(["a", "b", "c"], only)[1].told == "no hinge turns"
+    # less than a millimetre is not named
+    assert grouped(["a", "b", "c"], only, {"crushed": {"c": -0.0009}})[1].told == "no hinge turns"
+
+
+def test_slips_are_kept_and_files_without_them_are_read():
+    found = Modes((Mode(("a",), (1.0,), ("as given",)), Mode((), (), ("crushed",), (("a", -0.04),))))
+    stored = json.loads(json.dumps(asdict(found)))
+    assert modes_of(stored) == found
+    for mode in stored["modes"]:
+        del mode["slips"]
+    assert [mode.slips for mode in modes_of(stored).modes] == [(), ()]
+
+
+STRUTS = """crumple: 1
+materials:
+  steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa}
+sections: {b: {type: circular_tube, diameter: 25.4 mm, thickness: 1.6 mm}}
+nodes: {a: [0 m, 0 m, 0 m], b: [1.0 m, 0 m, 0 m], k: [0.5 m, 0 m, 1.1 m]}
+members:
+  p: {nodes: [a, k], section: b, material: steel}
+  q: {nodes: [b, k], section: b, material: steel}
+hinges: auto
+supports: {a: {node: a, fix: all}, b: {node: b, fix: all}}
+masses: {k: {node: k, mass: 200 kg}}
+initial_velocity: [{translation: [0.3 m/s, 0 m/s, -5 m/s], nodes: [k]}]
+analysis: {duration: 40 ms, multibody: {members: rigid}}
+outputs: {every: 0.2 ms}
+"""
+
+
+def test_struts_that_are_crushed_are_no_mode_without_hinges():
+    """In some runs the apex spins by 170°; in others the struts turn by less than a fifth of it and crush."""
+    analysis = loads(STRUTS)
+    result = with_modes(solve(analysis), analysis)
+    assert "folded_over" in {caution.code for caution in result.cautions}
+    (crushed,) = [mode for mode in result.modes.modes if mode.slips]
+    assert min(slip for _, slip in crushed.slips) < -0.02
+    assert "shortens by" in result.modes.sentence
+    assert "no hinge turns" not in result.modes.sentence
 
 
 def test_capacities_friction_and_stiffness_change_by_their_shares(monkeypatch):

@@ -6,6 +6,7 @@ import numpy as np
 
 from crumple.numeric.arrays import Floats
 from crumple.structure.hinges.corners import is_whole
+from crumple.structure.initial_fields import fields_of_mass, fields_of_member
 from crumple.structure.keys.motion import InitialVelocity
 from crumple.structure.keys.obstacles import Obstacle
 from crumple.structure.parts import StructureParts
@@ -16,31 +17,27 @@ def nodes_at_start(structure: StructureParts) -> dict[str, tuple[float, Floats]]
     """Mass [kg] and velocity [m/s] of every node, with half of its members."""
     parts: dict[str, list[tuple[float, Floats]]] = {}
 
-    def add(node: str, mass: float, kind: str, name: str) -> None:
+    def add(node: str, mass: float, fields: list[InitialVelocity]) -> None:
         point = np.asarray(structure.nodes[node], float)
-        acting = (field.at(point) for field in structure.initial_velocity if _acts(field, kind, name))
+        acting = (field.at(point) for field in fields)
         parts.setdefault(node, []).append((mass, sum(acting, np.zeros(3))))
 
     for name, spec in structure.members.items():
         if is_whole(structure, name):
             density = structure.material_of(name).density
             half = structure.section_of(name).mass_per_length(density) * structure.frame_of(name).length / 2.0
+            fields = fields_of_member(structure.initial_velocity, name)
             for node in spec.nodes:
-                add(node, half, "members", name)
+                add(node, half, fields)
     for lump in structure.masses.values():
         if lump.node in parts:
-            add(lump.node, float(lump.mass), "nodes", lump.node)
+            fields = fields_of_mass(structure, structure.initial_velocity, lump.node)
+            add(lump.node, float(lump.mass), fields)
     found = {}
     for node, moving in parts.items():
         mass = sum(own for own, _ in moving)
         found[node] = (mass, sum((own * velocity for own, velocity in moving), np.zeros(3)) / mass)
     return found
-
-
-def _acts(field: InitialVelocity, kind: str, name: str) -> bool:
-    """Whether a velocity field is that of a part."""
-    everywhere = field.nodes is None and field.members is None
-    return everywhere or name in (getattr(field, kind) or ())
 
 
 def obstacle_at_start(obstacle: Obstacle, heavy: float) -> tuple[Floats, float]:
