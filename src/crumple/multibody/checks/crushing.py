@@ -17,20 +17,26 @@ import numpy as np
 
 from crumple.errors import InputError
 from crumple.hinge import Freedom, axial_law_types, build_axial_law
+from crumple.multibody.answer.crush import crush_of
 from crumple.multibody.answer.forces import on_second
 from crumple.multibody.answer.poses import SpatialPoses
 from crumple.multibody.answer.solved import Solved
 from crumple.multibody.checks.names import named
+from crumple.numeric.arrays import Floats
+from crumple.numeric.crossing import first_above
 from crumple.numeric.rotation import turned
 from crumple.result import Caution
 from crumple.section import AXES, plastic_interaction
 from crumple.structure import Structure
 from crumple.structure.checks.doubtful import double_members
 from crumple.structure.hinges.asked import automatic_of
+from crumple.units import format_quantity
 
 ALONG = np.cos(np.radians(30.0))
 """Cosine of the angle between a blow and a member's axis below which it counts as bending, not crushing."""
 
+CLOSED = 1.02
+"""Crushed length over the stroke above which a caution is given: stops yield a little."""
 BEND = (
     "or 'members: elastic' in analysis.multibody, with which automatic hinges shorten where an impact "
     "would stop the structure, "
@@ -73,6 +79,30 @@ def crushing_cautions(structure: Structure, solved: Solved, *, struck: bool) -> 
         )
         for member, force in beyond.items():
             yield Caution("axial_compression", force, peak, "N", f"member {member}", text)
+
+
+def closed_together(structure: Structure, solved: Solved) -> Iterator[Caution]:
+    """Members whose hinges together are crushed by more than the stroke of their folds.
+
+    Every hinge has the stroke of the whole member, since the folds begin where the peak is reached first.
+    """
+    found: dict[str, list[tuple[float, Floats]]] = {}
+    for history in solved.hinges:
+        crush = crush_of(structure, history)
+        if crush is not None and crush.stroke is not None:
+            short = np.maximum(-history.values("slip.x.travel"), 0.0)
+            found.setdefault(history.hinge.member, []).append((crush.stroke, short))
+    for member, zones in found.items():
+        stroke, short = zones[0][0], np.sum([one for _, one in zones], axis=0)
+        when = first_above(solved.time, short, CLOSED * stroke)
+        if len(zones) > 1 and when is not None:
+            text = (
+                f"Member {member} is crushed by {format_quantity(float(short.max()), 'm', 3)} at its hinges "
+                f"together, and its folds are closed at {format_quantity(stroke, 'm', 3)}, reached at "
+                f"{format_quantity(when, 's', 3)}: from then on forces are too small and displacements too "
+                "large. Give it one hinge with 'axial', or solve with shells."
+            )
+            yield Caution("bottomed_out", float(short.max()), stroke, "m", f"member {member}", text)
 
 
 def buckling_cautions(structure: Structure, solved: Solved) -> Iterator[Caution]:

@@ -15,6 +15,7 @@ from crumple.structure.hinges.corner_laws import MITRED, turned_corner
 from crumple.structure.hinges.corners import corners
 from crumple.structure.hinges.elastic_members import joint_stations, segments_of, shear_stretch
 from crumple.structure.hinges.flexibility import flexibility, tributary_lengths
+from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.places import HingePlace, law_of, law_spec, member_hinge_places
 from crumple.structure.parts import StructureParts
 
@@ -111,8 +112,8 @@ def member_shares(
     if twist and between:
         twist = _beside(twist, places, between, (length, rigid))
     nearest = along(lambda place: True) if len(places) != 1 else {places[0].name: length}
-    # folds along the axis begin at the weakest hinge and go on next to each other through the whole member
-    nearest |= dict.fromkeys(axial, sum(axial.values()))
+    # folds along the axis begin at the weakest hinge and go on next to each other up to the joints
+    nearest |= dict.fromkeys(axial, _between_joints(structure, name, rigid) if axial else 0.0)
     twisted = nearest
     if between:
         section = structure.section_of(name)
@@ -132,6 +133,13 @@ def member_shares(
         )
         for place in places
     ], found
+
+
+def _between_joints(structure: StructureParts, name: str, rigid: tuple[tuple[float, float], ...]) -> float:
+    """Length of a member [m] that is neither in the rigid joints at its ends nor rigid by itself."""
+    nodes, length = structure.members[name].nodes, structure.frame_of(name).length
+    first, last = joint_reach(structure, name, nodes[0]), length - joint_reach(structure, name, nodes[1])
+    return last - first - sum(max(0.0, min(b, last) - max(a, first)) for a, b in rigid)
 
 
 def _beside(

@@ -139,3 +139,42 @@ def test_tubes_fold_by_the_law_of_their_section_and_others_yield(section, folds)
 
 def freedoms(hinge):
     return set() if hinge.spatial is None else {component.freedom for component in hinge.spatial.components}
+
+
+BOXES = """crumple: 1
+materials:
+  steel: {{youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa}}
+sections:
+  box: {{type: square_tube, side: 60 mm, thickness: 1.8 mm}}
+  beam: {{type: square_tube, side: {side} mm, thickness: 4 mm}}
+nodes: {{l0: [0 m, 0.4 m, 0 m], l1: [-0.2 m, 0.4 m, 0 m], r0: [0 m, -0.4 m, 0 m], r1: [-0.2 m, -0.4 m, 0 m]}}
+members:
+  bl: {{nodes: [l1, l0], section: box, material: steel, hinges: {{axial: {{law: square}}}}}}
+  br: {{nodes: [r1, r0], section: box, material: steel, hinges: {{axial: {{law: square}}}}}}
+  beam: {{nodes: [l0, r0], section: beam, material: steel}}
+  tie: {{nodes: [l1, r1], section: beam, material: steel}}
+hinges: auto
+masses: {{ml: {{node: l1, mass: 500 kg}}, mr: {{node: r1, mass: 500 kg}}}}
+initial_velocity: [{{translation: [7 m/s, 0 m/s, 0 m/s]}}]
+analysis: {{duration: 1 ms}}
+"""
+
+
+def test_a_tube_between_joints_folds_over_what_lies_between_them():
+    """200 mm between nodes; beams of 60 and 40 mm leave 140 and 160 mm."""
+
+    def strokes(side):
+        hinges = plastic_hinges(loads(BOXES.format(side=side)).structure)
+        axial = (
+            part.record
+            for hinge in hinges
+            if hinge.member == "bl"
+            for part in hinge.spatial.components
+            if part.freedom == Freedom.AXIAL
+        )
+        return {record.stop_negative.rotation for record in axial}
+
+    (short,), (long,) = strokes(60), strokes(40)
+    assert short / long == pytest.approx(140.0 / 160.0)
+    # the law's stroke is 0.73 of the length
+    assert short == pytest.approx(0.73 * 0.140)
