@@ -208,7 +208,7 @@ def test_what_an_obstacle_meets_at_a_support_is_named(x, supported, expected):
 
 def test_a_violation_changes_the_status(monkeypatch):
     broken = Caution("dissipation_falls", 1.0, 0.1, "J", "friction", "It falls.", violation=True)
-    monkeypatch.setattr("crumple.multibody.solve.physics_cautions", lambda *_: (broken,))
+    monkeypatch.setattr("crumple.multibody.solve.physics_cautions", lambda *_, **__: (broken,))
     thrown = [{"rotation": 5.0, "axis": (0.0, -1.0, 0.0)}]
     result = solve(cantilever(constant_law(1000.0), initial_velocity=thrown))
     assert (result.status, result.reason) == (Status.IMPOSSIBLE, "It falls.")
