@@ -9,7 +9,10 @@ first term grows to 1/(1 - r) of itself, the third to 1/(1 - r/9), so the middle
 and past the load by bending into an elastica, P = P_E (1 + pi^2/8 (w/L)^2).  Steps are bounded because the
 deflection of a step decides what presses the member further: they used to shrink without end near P_E.
 
-Kind: closed form.  Source: Timoshenko and Gere, Theory of Elastic Stability, 1961, sections 1-12 and 2-7.
+Euler's load and the growth of an initial curvature are in any book on stability of elastic bars; the term
+in the square of the deflection is the elastica's first.
+
+Kind: closed form.  Source: textbook.
 """
 
 import math
