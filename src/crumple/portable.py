@@ -60,6 +60,7 @@ def exit_code_of_stop() -> int:
 def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
     """Give a function that returns whether Ctrl-C or SIGTERM was received; a second one ends the program."""
     pressed = threading.Event()
+    _stopped_by.clear()
     # the last is Ctrl-Break, which Windows alone has
     numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGBREAK") if hasattr(signal, name)]
     previous = {number: signal.getsignal(number) for number in numbers}
@@ -85,6 +86,7 @@ def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
 def interrupt_on_termination() -> Iterator[None]:
     """Raise `KeyboardInterrupt` in the main thread at SIGTERM; a second one ends the program."""
     previous = signal.getsignal(signal.SIGTERM)
+    _stopped_by.clear()
 
     def interrupt(number: int, frame: FrameType | None) -> None:
         signal.signal(signal.SIGTERM, previous)
