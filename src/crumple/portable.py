@@ -48,10 +48,19 @@ def available_cores() -> int:
     return os.cpu_count() or 1
 
 
+_stopped_by: list[int] = []
+
+
+def exit_code_of_stop() -> int:
+    """Exit code of a command that was asked to stop: 143 if SIGTERM did, else 130 as after Ctrl-C."""
+    return 143 if _stopped_by[-1:] == [signal.SIGTERM] else 130
+
+
 @contextmanager
 def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
     """Give a function that returns whether Ctrl-C or SIGTERM was received; a second one ends the program."""
     pressed = threading.Event()
+    _stopped_by.clear()
     # the last is Ctrl-Break, which Windows alone has
     numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGBREAK") if hasattr(signal, name)]
     previous = {number: signal.getsignal(number) for number in numbers}
@@ -62,6 +71,7 @@ def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
 
     def note(number: int, frame: FrameType | None) -> None:
         pressed.set()
+        _stopped_by.append(number)
         restore()
 
     for number in previous:
@@ -72,18 +82,16 @@ def stop_on_interrupt() -> Iterator[Callable[[], bool]]:
         restore()
 
 
-class TerminationError(KeyboardInterrupt):
-    """SIGTERM was received: it ends the program as Ctrl-C does."""
-
-
 @contextmanager
 def interrupt_on_termination() -> Iterator[None]:
-    """Raise `TerminationError` in the main thread at SIGTERM; a second one ends the program."""
+    """Raise `KeyboardInterrupt` in the main thread at SIGTERM; a second one ends the program."""
     previous = signal.getsignal(signal.SIGTERM)
+    _stopped_by.clear()
 
     def interrupt(number: int, frame: FrameType | None) -> None:
         signal.signal(signal.SIGTERM, previous)
-        raise TerminationError
+        _stopped_by.append(number)
+        raise KeyboardInterrupt
 
     signal.signal(signal.SIGTERM, interrupt)
     try:

@@ -16,6 +16,7 @@ from crumple.hinge.law_use import LawUse
 from crumple.portable import (
     available_cores,
     console_takes_all,
+    exit_code_of_stop,
     reader_left,
     replacing,
     stop_on_interrupt,
@@ -42,13 +43,14 @@ def test_cores_where_no_process_is_bound(monkeypatch):
     assert available_cores() == 1
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_is_a_wish_to_stop(number):
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_a_signal_is_a_wish_to_stop(number, code):
     before = signal.getsignal(number)
     with stop_on_interrupt() as asked:
         assert not asked()
         signal.raise_signal(number)
         assert asked()
+        assert exit_code_of_stop() == code
         # a second one is Python's own
         assert signal.getsignal(number) is before
     assert signal.getsignal(number) is before

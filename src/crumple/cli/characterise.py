@@ -262,7 +262,7 @@ def _largest(to: str) -> float:
 def _solved(model: SubModel, threads: int | None, *, converge: bool, interaction: bool) -> Characterised:
     from crumple.characterisation import characterise as characterised
     from crumple.cli.console.progress import progress_bar
-    from crumple.portable import available_cores, stop_on_interrupt
+    from crumple.portable import available_cores, exit_code_of_stop, stop_on_interrupt
 
     with stop_on_interrupt() as cancel, progress_bar(model.title) as bar:
 
@@ -282,7 +282,7 @@ def _solved(model: SubModel, threads: int | None, *, converge: bool, interaction
             )
         except KeyboardInterrupt:
             typer.echo("Stopped; no law was stored.", err=True)
-            raise typer.Exit(130) from None
+            raise typer.Exit(exit_code_of_stop()) from None
 
 
 def _picture(done: Characterised, path: Path) -> None:

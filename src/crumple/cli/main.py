@@ -27,7 +27,7 @@ from crumple.cli.section import section
 from crumple.cli.study import study
 from crumple.cli.view import view
 from crumple.errors import CancelledError, InputError
-from crumple.portable import prepare_consoles, reader_left
+from crumple.portable import exit_code_of_stop, prepare_consoles, reader_left
 from crumple.version import __version__
 
 COLLECTED_EVERY = 50_000
@@ -88,7 +88,7 @@ def main() -> None:
         app()
     except CancelledError as error:
         typer.echo(str(error), err=True)
-        sys.exit(130)
+        sys.exit(exit_code_of_stop())
     except InputError as error:
         show_refusal(error)
         sys.exit(2)

@@ -106,20 +106,20 @@ def _resumable(file: Path, folder: Path, *more: str, rows: Path | None = None) -
 
     `rows`: the folder of the rows, if it is not that of the command.
     """
-    from crumple.portable import TerminationError, command_line, interrupt_on_termination
+    from crumple.portable import command_line, exit_code_of_stop, interrupt_on_termination
     from crumple.study.table import has_rows
 
     try:
         with interrupt_on_termination():
             yield
-    except KeyboardInterrupt as stop:
+    except KeyboardInterrupt:
         again = ("crumple", "study", file, "--out", folder, *more)
         if has_rows(rows or folder):
             said = f"Stopped; the rows so far are kept. Go on with: {command_line(*again, '--resume')}"
         else:
             said = f"Stopped before the first row was kept. Begin again with: {command_line(*again)}"
         typer.echo(said, err=True)
-        raise typer.Exit(143 if isinstance(stop, TerminationError) else 130) from None
+        raise typer.Exit(exit_code_of_stop()) from None
 
 
 def _part(

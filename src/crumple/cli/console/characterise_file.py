@@ -186,7 +186,7 @@ def _solve(missing: list[Needed], store: Path, workers: int, converge: bool) -> 
     from crumple.characterisation import LawStore
     from crumple.characterisation.parallel import characterise_all
     from crumple.cli.console.progress import progress_bar
-    from crumple.portable import stop_on_interrupt
+    from crumple.portable import exit_code_of_stop, stop_on_interrupt
 
     shares, weights = [0.0] * len(missing), [one.seconds() for one in missing]
     found = failed = 0
@@ -214,7 +214,7 @@ def _solve(missing: list[Needed], store: Path, workers: int, converge: bool) -> 
         stopped = cancel()
     if stopped:
         typer.echo(f"Stopped with {found} of {len(missing)} laws; the same command continues.", err=True)
-        raise typer.Exit(130)
+        raise typer.Exit(exit_code_of_stop())
     typer.echo(f"{found} laws added to {store}. Use them with --laws {store}")
     return failed == 0
 

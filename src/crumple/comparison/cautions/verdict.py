@@ -33,7 +33,7 @@ WHAT = {
     "displacement": "largest displacement of",
     "rotations": "rotation of",
     ZONES: "energy at",
-    "peak force": "peak force of",
+    "peak force": "peak force (CFC 60) of",
 }
 FAR = 2.0
 """Error over what is allowed from which a figure is wrong."""

@@ -118,12 +118,12 @@ ${new XMLSerializer().serializeToString(standalone(figure()))}`;
       make("p", parent, `${effect.response} is constant, ${tidy(effect.mean)}${effect.unit ? ` ${effect.unit}` : ""} in all rows: no variable has an effect on it.`);
       return;
     }
-    const WIDE = 760, LINE = 30, MIDDLE = 180, svg = draw("svg", { viewBox: `0 0 ${WIDE} ${LINE * effect.bars.length + 46}`, role: "img", "aria-label": `Tornado of ${effect.response}` }, parent);
+    const WIDE = 480, LINE = 30, NAMES = 120, ENDS = 96, svg = draw("svg", { viewBox: `0 0 ${WIDE} ${LINE * effect.bars.length + 46}`, role: "img", "aria-label": `Tornado of ${effect.response}` }, parent);
     const all = effect.bars.flatMap((bar) => [bar.low, bar.high]).concat(effect.mean), low = Math.min(...all), high = Math.max(...all);
-    const x = (v) => MIDDLE + 60 + (WIDE - MIDDLE - 140) * (v - low) / (high - low || 1), end = LINE * effect.bars.length + 8;
+    const x = (v) => NAMES + ENDS + (WIDE - NAMES - 2 * ENDS) * (v - low) / (high - low || 1), end = LINE * effect.bars.length + 8;
     effect.bars.forEach((bar, i) => {
       const y = 8 + LINE * i, [a, b] = [bar.low, bar.high];
-      draw("text", { x: MIDDLE - 8, y: y + 15, "text-anchor": "end", class: "name" }, svg, bar.variable);
+      draw("text", { x: NAMES, y: y + 15, "text-anchor": "end", class: "name" }, svg, bar.variable);
       draw("rect", { x: Math.min(x(a), x(effect.mean)), width: Math.abs(x(a) - x(effect.mean)), y, height: LINE - 10, class: "low" }, svg);
       draw("rect", { x: Math.min(x(b), x(effect.mean)), width: Math.abs(x(b) - x(effect.mean)), y, height: LINE - 10, class: "high" }, svg);
       const left = a <= b;
@@ -147,7 +147,7 @@ ${new XMLSerializer().serializeToString(standalone(figure()))}`;
       return;
     }
     said.textContent = curve.band.length ? "After so many rows, with its 95 % interval." : "After so many rows, among those that keep all constraints.";
-    const WIDE = 760, TALL = 250, LEFT = 76, svg = draw("svg", { viewBox: `0 0 ${WIDE} ${TALL}`, role: "img", "aria-label": curve.name }, parent);
+    const WIDE = 500, TALL = 200, LEFT = 76, svg = draw("svg", { viewBox: `0 0 ${WIDE} ${TALL}`, role: "img", "aria-label": curve.name }, parent);
     const known = curve.values.flatMap((v, i) => v === null ? [] : [i]);
     if (!known.length) {
       said.textContent = "No row keeps all constraints.";

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from crumple.hinge.corner.in_plane import SMALLEST
 from crumple.numeric.arrays import Floats
-from crumple.structure.checks.standing import standing_doubts
+from crumple.structure.checks.standing import nothing_acts, standing_doubts
 from crumple.structure.checks.unusual import Unusual, unusual_values
 from crumple.structure.geometry import NARROWEST
 from crumple.structure.hinges.corners import leaving
@@ -127,6 +127,7 @@ def input_doubts(
         *unusual_values(structure, duration),
         *doubtful_members(structure),
         *standing_doubts(structure, stages),
+        *nothing_acts(structure, stages),
     )
 
 

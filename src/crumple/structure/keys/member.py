@@ -89,6 +89,9 @@ class AutomaticHinges(HingeAxes):
 
 
 def _automatic(given: Any) -> Any:
+    if isinstance(given, str) and given != "auto":
+        allowed = "auto, or keys such as axes: [y, z]; in a member also a list of hinges"
+        refuse(f"automatic hinges are not described by '{given[:40]}'", allowed=allowed, todo="write auto")
     return {} if given == "auto" else given
 
 
