@@ -176,8 +176,8 @@ def contact_table(comparison: Comparison) -> Table:
             rows.append((name, *(_value(energy, "J") for energy in taken), "—", "—"))
     first, second = comparison.candidate.name, comparison.reference.name
     caption = (
-        "Contacts of obstacles. Peak force: through the filter CFC 60, which lowers short peaks; the histories "
-        "have it as it is. Dissipation: plastic work within one side of the section of where a member "
+        "Contacts of obstacles. Peak force: through the filter CFC 60, which lowers short peaks; histories "
+        "have it unfiltered. Dissipation: plastic work within one side of the section of where a member "
         "touches the obstacle, with what contact and friction take if only one obstacle presses; its target "
         "is at least 3 % of the energy put in. Taken by contact: in a multibody run, what impacts between "
         "rigid bodies take; in shells, what contact springs store and damp, and friction."

@@ -59,8 +59,8 @@ def nothing_acts(structure: StructureParts, stages: Sequence[Stage] = ()) -> Ite
     """
     acts = (
         any(structure.gravity),
-        *(one.initial_velocity or one.impulses for one in (structure, *stages)),
-        structure.loads,
+        structure.initial_velocity or structure.impulses or structure.loads,
+        *(stage.initial_velocity or stage.impulses for stage in stages),
         *(support.driven for support in structure.supports.values()),
         *(obstacle.driven or any(obstacle.velocity) for obstacle in structure.obstacles.values()),
     )
