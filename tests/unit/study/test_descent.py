@@ -1,5 +1,7 @@
 """Optimisation along gradients: slopes against differences of rows, optima against evolution, refusals."""
 
+import math
+
 import numpy as np
 import pytest
 from tests.unit.study.test_study import BASE, ROTATION, WALL, rows_of, written
@@ -8,8 +10,10 @@ from crumple.analysis import load
 from crumple.errors import InputError
 from crumple.study import LoadedStudy, Table, run_study
 from crumple.study.methods.descent import _Search
+from crumple.study.methods.optimise import optimise
 from crumple.study.rows import BatchModel
 from crumple.study.setting import setting_of
+from crumple.study.space import Axis
 
 WIDE = WALL.replace("3 mm", "6 mm")
 MORE = "objective: {minimise: m}\nconstraints: [{response: r, at_most: 20 deg}]"
@@ -95,3 +99,17 @@ def test_it_begins_at_the_values_of_the_base_and_ends_with_its_rows(tmp_path):
 def test_what_has_no_gradient_is_refused(tmp_path, method, variable, response, more, said):
     with pytest.raises(InputError, match=said):
         run_study(LoadedStudy(written(tmp_path, method, variable, response, more)), tmp_path)
+
+
+def test_an_optimum_is_found_although_half_of_the_range_fails():
+    """The spread of a generation is a number, whatever a failed row stands for: no warning."""
+    asked = []
+
+    def judged(points):
+        asked.extend(point[0] for point in points)
+        x = np.array([point[0] for point in points])
+        return (x - 0.4) ** 2, np.where(x > 0.5, math.inf, 0.0)
+
+    optimise([Axis("x", (), "1", 0.0, 1.0, (), None, False, None)], judged, 320, 1)
+    assert max(asked) > 0.5
+    assert min(asked, key=lambda x: (x - 0.4) ** 2 if x <= 0.5 else math.inf) == pytest.approx(0.4, abs=1e-3)

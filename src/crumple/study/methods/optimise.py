@@ -19,6 +19,8 @@ from crumple.study.space import Axis, Point
 
 POPULATION = 8
 """Members of a generation per variable."""
+FAILED = 1e150
+"""Value of a row that failed: the optimiser squares it for the spread of a generation."""
 Judged = Callable[[list[Point]], tuple[Floats, Floats]]
 """Points to their objective, which is made small, and the violation of constraints: 0 without one, infinite
 in failed rows."""
@@ -70,7 +72,7 @@ def optimise(axes: Sequence[Axis], judged: Judged, most: int, seed: int) -> None
         if feasible.any():
             worst[0] = max(worst[0], float(np.abs(objective[feasible]).max()))
         raised = 1e6 * (1.0 + worst[0]) * (1.0 + violation)
-        return np.where(feasible, objective, np.where(np.isfinite(raised), raised, 1e300))
+        return np.where(feasible, objective, np.minimum(raised, FAILED))
 
     differential_evolution(
         values,  # type: ignore[arg-type]  # a generation at a time: `vectorized`
