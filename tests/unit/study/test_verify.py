@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.stats import kendalltau
 
+from crumple.analysis import solve
 from crumple.errors import InputError
 from crumple.study import LoadedStudy, Study, check_study, run_study, study_of
 from crumple.study.verify import kendall
@@ -143,7 +144,7 @@ def test_a_reserve_keeps_the_fast_model_clear_of_its_limits():
 
 @pytest.mark.slow
 def test_shells_confirm_an_optimum_over_twelve_variables(tmp_path):
-    """A frame of two storeys: lighter than with equal tubes, and within its limit by shells too."""
+    """A frame of two storeys within its limit by shells too, and lighter than with equal tubes, which exceed it."""
     loaded = LoadedStudy(Path("examples/studies/07_twelve_variables.yaml"))
     verify = loaded.study.verify.model_copy(update={"best": 1, "sample": 0})
     loaded.study = loaded.study.model_copy(update={"verify": verify})
@@ -154,4 +155,6 @@ def test_shells_confirm_an_optimum_over_twelve_variables(tmp_path):
     assert len(best["variables"]) == 12
     assert best["slow"]["sway"] <= 0.12
     assert best["fast"]["sway"] <= 0.108
-    assert best["slow"]["mass"] < 0.9 * equal
+    assert best["slow"]["mass"] < equal
+    base = solve(loaded.base.analysis)
+    assert base["node.left_roof.displacement.x"].max() > 0.12
