@@ -144,7 +144,7 @@ def test_a_reserve_keeps_the_fast_model_clear_of_its_limits():
 
 @pytest.mark.slow
 def test_shells_confirm_an_optimum_over_twelve_variables(tmp_path):
-    """A frame of two storeys within its limit by shells too, and lighter than with equal tubes, which exceed it."""
+    """A frame of two storeys within its limit by shells too; equal tubes are heavier and exceed it."""
     loaded = LoadedStudy(Path("examples/studies/07_twelve_variables.yaml"))
     verify = loaded.study.verify.model_copy(update={"best": 1, "sample": 0})
     loaded.study = loaded.study.model_copy(update={"verify": verify})
