@@ -77,6 +77,19 @@ def test_rigid_bars_of_a_long_motion_say_why():
         assert (said in rigid) == expected
 
 
+@pytest.mark.parametrize(("kind", "rigid"), [("quasi-static", False), ("dynamic", True)])
+def test_members_of_a_long_quasi_static_stage_bend(kind, rigid):
+    pushed = {"x": {"table": {"time": (0.0, 0.6), "value": (0.0, 1e-3)}}}
+    far = {"far": {"node": "c", "motion": pushed}}
+    whole = structure(
+        NODES, {"ab": member("a", "b"), "bc": member("b", "c")}, hinges="auto", supports=CLAMP | far
+    )
+    stage = Stage.model_validate({"name": "push", "kind": kind, "duration": 0.6})
+    result = solve_multibody(whole, Run(0.6, 0.1, stages=(stage,), checks=False))
+    assert result.status.ok, result.reason
+    assert any("Members are rigid between their hinges" in text for text in result.assumptions) == rigid
+
+
 def test_the_result_says_so():
     whole = frame(hinges="auto", initial_velocity=[{"rotation": 5.0, "axis": (0, 1, 0)}])
     bends, rigid = (
