@@ -182,6 +182,7 @@ def _contact_lines(found: Comparison) -> Iterator[str]:
     from crumple.units import format_quantity
 
     names = found.candidate.name, found.reference.name
+    dissipation = "dissipation at contact"
     for kind, unit in zip(CONTACT_TARGETS, ("N*s", "J"), strict=True):
         for figure in found.figures.get(kind, ()):
             values = (
@@ -190,6 +191,11 @@ def _contact_lines(found: Comparison) -> Iterator[str]:
             )
             mark = "" if figure.right else ", beyond its target"
             yield f"Obstacle {escape(figure.name)}, {kind}: {', '.join(values)}{mark}"
+    if found.figures.get(dissipation):
+        yield (
+            f"{dissipation.capitalize()}: plastic work within one side of the section of the place of "
+            "contact, with the energies of contact and friction if only one obstacle presses"
+        )
 
 
 def _show(found: Comparison, folder: Path, source: LoadedInput | None = None) -> None:

@@ -167,7 +167,7 @@ def contact_table(comparison: Comparison) -> Table:
             judged = "" if figure.right else ", beyond its target"
             off = signed_percent((figure.model - figure.shell) / figure.shell if figure.shell else None)
             allowed = f"{100 * figure.allowed:.0f} %"
-            filtered = ", CFC 60" if kind == "peak force" else ""
+            filtered = " (CFC 60)" if kind == "peak force" else ""
             rows.append((f"{figure.name}: {kind}{filtered}", *values, f"{off}{judged}", allowed))
     if rows:
         results = (comparison.candidate.result, comparison.reference.result)

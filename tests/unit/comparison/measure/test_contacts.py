@@ -10,6 +10,7 @@ from rich.markup import render
 from tests.support.structures import STEEL
 
 from crumple.cli.compare import _contact_lines
+from crumple.comparison.cautions.verdict import _figure_text
 from crumple.comparison.measure.contacts import dissipated_at, impulse
 from crumple.comparison.measure.decisive import figures_of
 from crumple.comparison.measure.energy import hinge_work
@@ -176,12 +177,12 @@ def test_references_without_them_judge_no_contacts_and_failed_runs_are_wrong():
     assert not failed["dissipation at contact"][0].right
 
 
-def compared(model):
+def compared(model, reference=OWN):
     """What the table and the lines use of a comparison."""
     source = SimpleNamespace(name="multibody", result=SimpleNamespace(channels={}))
     return SimpleNamespace(
         candidate=source, reference=SimpleNamespace(name="shell", result=source.result),
-        figures=figures_of(model, OWN),
+        figures=figures_of(model, reference),
     )  # fmt: skip
 
 
@@ -195,8 +196,31 @@ def test_the_page_and_the_command_show_both_values_and_what_is_beyond_its_target
     assert lines == [
         "Obstacle pole, impulse: 90 N s (multibody), 100 N s (shell), beyond its target",
         "Obstacle pole, dissipation at contact: 200 J (multibody), 200 J (shell)",
+        "Dissipation at contact: plastic work within one side of the section of the place of contact, with "
+        "the energies of contact and friction if only one obstacle presses",
     ]
     assert not contact_table(SimpleNamespace(**(vars(shown) | {"figures": {}}))).rows
+
+
+def test_without_a_dissipation_it_is_not_explained():
+    shown = compared(OWN)
+    del shown.figures["dissipation at contact"]
+    assert [render(line).plain for line in _contact_lines(shown)] == [
+        "Obstacle pole, impulse: 100 N s (multibody), 100 N s (shell)"
+    ]
+
+
+def test_peak_forces_say_their_filter():
+    struck = replace(OWN, peak_force={"wall": 108.2e3})
+    shown = compared(replace(OWN, peak_force={"wall": 77.04e3}), struck)
+    table = contact_table(shown)
+    (row,) = [row for row in table.rows if row[0].startswith("wall")]
+    assert row == ("wall: peak force (CFC 60)", "77.04 kN", "108.2 kN", "−28.8 %, beyond its target", "15 %")
+    assert "Peak force: through the filter CFC 60, which lowers short peaks" in table.caption
+    (peak,) = shown.figures["peak force"]
+    assert _figure_text("peak force", peak, shown) == (
+        "peak force (CFC 60) of wall 77 kN multibody, 108 kN shell"
+    )
 
 
 def test_a_struck_joint_counts_alike_with_and_without_rings_in_it():
