@@ -1,6 +1,7 @@
 """`crumple characterise` prints and keeps the law of a sub-model; what is kept is not solved again."""
 
 import json
+import signal
 from types import SimpleNamespace
 
 import numpy as np
@@ -50,6 +51,37 @@ def test_law_is_solved_once_and_kept(tmp_path, monkeypatch):
     assert "Plastic rotation" in again.output
     assert "The law ends" not in again.output
     assert file.name in again.output.replace("\n", "")
+
+
+SIGNALS = pytest.mark.parametrize(("number", "exit_code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+
+
+@SIGNALS
+def test_a_section_that_is_stopped_has_no_law_and_the_exit_code_of_the_signal(
+    number, exit_code, tmp_path, monkeypatch
+):
+    solve = solving.solve
+
+    def interrupted(*given, **options):
+        signal.raise_signal(number)
+        return solve(*given, **options)
+
+    monkeypatch.setattr(solving, "solve", interrupted)
+    done = invoke("--store", str(tmp_path), "--threads", "1")
+    assert (done.exit_code, "Stopped; no law was stored." in done.stderr) == (exit_code, True)
+    assert not list(tmp_path.glob("*.law.yaml"))
+
+
+@SIGNALS
+def test_a_file_that_is_stopped_has_the_exit_code_of_the_signal(number, exit_code, tmp_path, monkeypatch):
+    def interrupted(*_):
+        signal.raise_signal(number)
+        yield from ()
+
+    monkeypatch.setattr("crumple.characterisation.parallel.in_processes", interrupted)
+    words = ["characterise", "examples/01_tube_bending.yaml", "--store", str(tmp_path / "laws")]
+    done = CliRunner().invoke(app, words, catch_exceptions=False)
+    assert (done.exit_code, "Stopped with 0 of " in done.stderr) == (exit_code, True)
 
 
 @pytest.mark.parametrize(("turned", "said"), [(0.1745, False), (0.1, True)])

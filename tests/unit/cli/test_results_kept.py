@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import json
 import os
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -212,6 +213,21 @@ def test_a_second_interrupt_reports_what_is_lost(command, tmp_path, monkeypatch)
     assert code == 130
     assert "second Ctrl-C: no results of this run were kept" in errors
     assert not list((tmp_path / "out").glob("*.json"))
+
+
+@pytest.mark.parametrize(("number", "exit_code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+@pytest.mark.parametrize("verb", ["run", "compare"])
+def test_a_run_that_is_stopped_before_its_first_output_has_the_exit_code_of_the_signal(
+    verb, number, exit_code, command, tmp_path, monkeypatch
+):
+    def interrupted(*_, **__):
+        signal.raise_signal(number)
+        raise CancelledError("cancelled before the first step: nothing was computed")
+
+    monkeypatch.setattr("crumple.multibody.solve.refuse_pictures", interrupted)
+    code, _, errors = command(verb, EXAMPLE, "--out", tmp_path / "out")
+    assert code == exit_code
+    assert "cancelled before the first step" in errors
 
 
 def test_a_run_is_kept_if_the_runs_beside_it_are_stopped(command, tmp_path, monkeypatch):
