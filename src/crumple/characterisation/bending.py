@@ -9,7 +9,7 @@ import numpy as np
 
 from crumple.analysis import Analysis
 from crumple.characterisation.curve import LawCurve, law_curve
-from crumple.characterisation.resolution import NOMINAL, Resolution
+from crumple.characterisation.resolution import NOMINAL, Resolution, scaled_step
 from crumple.characterisation.sub_model import (
     Histories,
     StrongCornerError,
@@ -162,12 +162,13 @@ class Bending:
     def analysis(self) -> Analysis:
         """Input of the shell solver."""
         duration = self.duration
+        scaled = None if self.angle is None else scaled_step(self.size, self.material)
         near, far = 0.5 * self.gauge, self.piece - 0.5 * self.gauge
         return Analysis(
             title=f"Sub-model: {self.title}",
             structure=self._structure(duration),
             duration=duration,
-            shell={"element_size": self.size},
+            shell={"element_size": self.size, "mass_scaling": scaled},
             outputs={
                 "every": duration / OUTPUTS,
                 "nodes": ["turned"],

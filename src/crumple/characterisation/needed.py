@@ -10,6 +10,7 @@ from crumple.characterisation.bending import Bending
 from crumple.characterisation.crush import Crush
 from crumple.characterisation.out_of_plane import OutOfPlane, usual_resolution
 from crumple.characterisation.rate import FASTER, rate_pair
+from crumple.characterisation.resolution import SCALED_STEP
 from crumple.characterisation.solving import FINER
 from crumple.characterisation.sub_model import SubModel, is_mirrored
 from crumple.characterisation.t_joint import TJoint
@@ -54,7 +55,7 @@ class Needed:
         model = self.model
         elements = model.section.area / model.section.thickness * model.length / model.size**2
         speed = math.sqrt(model.material.youngs_modulus / model.material.density)
-        once = PER_ELEMENT_STEP * elements * model.duration * speed / model.size
+        once = PER_ELEMENT_STEP * elements * model.duration * speed / (SCALED_STEP * model.size)
         runs = (1.0 if model.one_law else 2.0) + (sum(ratio**3 for ratio in FINER) if converge else 0.0)
         # at rest, with rate, and with rate three times as fast
         rate = 0.0 if rate_pair(model.material) is None or model.load == "crush" else 1.0 + 1.0 / FASTER

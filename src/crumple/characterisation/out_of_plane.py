@@ -18,7 +18,7 @@ import numpy as np
 from crumple.analysis import Analysis
 from crumple.characterisation.bending import elastic_flexibility, second_piece
 from crumple.characterisation.curve import LawCurve, law_curve
-from crumple.characterisation.resolution import NOMINAL, Resolution
+from crumple.characterisation.resolution import NOMINAL, Resolution, scaled_step
 from crumple.characterisation.sub_model import Histories, corner_piece, is_mirrored, largest_side
 from crumple.errors import InputError, Problem
 from crumple.hinge.corner.mitred_corner_across import distorted_length
@@ -239,7 +239,7 @@ class OutOfPlane:
             title=f"Sub-model: {self.title}",
             structure=structure,
             duration=duration,
-            shell={"element_size": self.size},
+            shell={"element_size": self.size, "mass_scaling": scaled_step(self.size, self.material)},
             outputs={"every": duration / OUTPUTS, "nodes": ["turned"], "pictures": [duration]},
         )
 

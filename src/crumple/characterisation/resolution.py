@@ -6,7 +6,9 @@ sine wave
 
     T = slowness sqrt(m L^2 theta/M_p)
 
-the share of kinetic energy depends on `slowness` alone.  docs/theory/characterisation.md.
+the share of kinetic energy depends on `slowness` alone.  At a mitre some elements are much smaller
+than the others; added mass lets them have nearly the time step of the others.
+docs/theory/characterisation.md.
 """
 
 from __future__ import annotations
@@ -16,6 +18,9 @@ from dataclasses import dataclass
 
 from crumple.material import Material
 from crumple.section import Axis, Section, half_fold_length
+
+SCALED_STEP = 0.8
+"""Least time step of corners over that in which sound passes an element of the nominal size [-]."""
 
 
 @dataclass(frozen=True)
@@ -47,3 +52,20 @@ class Resolution:
 
 
 NOMINAL = Resolution()
+
+
+def scaled_step(size: float, material: Material) -> float:
+    """Time step below which elements at a corner get more mass [s].
+
+    Parameters
+    ----------
+    size
+        Length of the elements away from the corner [m].
+    material
+        Young's modulus and density.
+
+    References
+    ----------
+    docs/theory/characterisation.md, whose table has what the added mass changes.
+    """
+    return SCALED_STEP * size * math.sqrt(material.density / material.youngs_modulus)

@@ -126,6 +126,9 @@ def characterise(
         "kinetic_energy": f"at most {kinetic:.2%} of the internal energy after {_amount(slow)}",
         "energy_residual": f"{result.energy_residual:.2g} of the energy input",
     }
+    added = float(result.provenance.settings["added_mass"])
+    if added:
+        facts["mass_scaling"] = f"{1e3 * added:.3g} g added at the smallest elements"
     if interaction and isinstance(slow, Bending) and slow.angle is None:
         facts |= interaction_errors(slow, lambda one: solver.run(one, one.title)[1])
     if interaction and isinstance(slow, OutOfPlane) and slow.about == "bisector":

@@ -185,6 +185,7 @@ def test_corner_that_is_too_strong_in_one_sense_has_the_law_of_its_member_there(
     assert done.law.curve.positive[1][0] < 0.99 * member.moment[0]
     assert "straight member" in dict(done.law.origin)["opened"]
     assert "closed" not in dict(done.law.origin)
+    assert "mass_scaling" in dict(done.law.origin)
     assert done.curve.moment[0] == done.law.points(sense)[1][0]
     assert done.law.title == model.title
 

@@ -85,3 +85,13 @@ def test_a_section_without_a_material_is_refused():
     found = CliRunner().invoke(app, ["characterise", "rectangular_tube 50x25x2 mm"])
     assert "a section needs its material" in str(found.exception)
     assert Path("laws").exists() is False
+
+
+def test_small_elements_of_corners_get_mass_and_those_of_straight_members_do_not():
+    structure = load("examples/12_l_frame.yaml").structure
+    for one in needed(structure, LARGEST):
+        model = one.model
+        speed = math.sqrt(model.material.youngs_modulus / model.material.density)
+        corner = isinstance(model, OutOfPlane) or model.angle is not None
+        expected = pytest.approx(0.8 * model.size / speed) if corner else None
+        assert model.analysis().shell.mass_scaling == expected

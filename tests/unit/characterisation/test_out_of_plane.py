@@ -107,6 +107,8 @@ def test_a_coarse_law_is_found_by_its_place_and_has_the_spring_of_the_corner(tmp
     model = OutOfPlane(TUBE, STEEL, largest=math.radians(6.0), resolution=Resolution(3.0, 5.0))
     done = characterise(model)
     assert done.kinetic < 0.02
+    added = done.result.provenance.settings["added_mass"]
+    assert dict(done.law.origin)["mass_scaling"] == f"{1e3 * added:.3g} g added at the smallest elements"
     assert done.law.symmetric
     assert is_of_joint(done.law)
     assert done.law.elastic_stiffness is not None
