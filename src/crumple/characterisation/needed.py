@@ -20,8 +20,10 @@ from crumple.section import AXES, Axis
 from crumple.structure import Structure, hinge_places, planar
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges.automatic import twists
+from crumple.structure.hinges.corner_laws import corner_name
 from crumple.structure.hinges.corners import corners, untreated
-from crumple.structure.hinges.places import member_hinge_places
+from crumple.structure.hinges.places import has_clamped_law, member_hinge_places
+from crumple.structure.hinges.shares import about_axis
 from crumple.structure.hinges.stored_loads import stored_loads
 from crumple.structure.hinges.t_joints import t_places
 
@@ -86,7 +88,8 @@ def needed(structure: Structure, largest: float) -> tuple[Needed, ...]:
         section, material = structure.section_of(name), structure.material_of(name)
         axes: tuple[Axis, ...] = (bending_axis(structure, name),) if planar(structure) else ("y", "z")
         for axis in axes:
-            add(Bending(section, material, axis, largest=largest), name)
+            if not _beside_clamps(structure, name, axis):
+                add(Bending(section, material, axis, largest=largest), name)
         if not planar(structure) and twists(structure, name):
             add(Torsion(section, material, largest=largest), name)
         if any("crush" in stored_loads(place) for place in member_hinge_places(structure, name)):
@@ -103,6 +106,13 @@ def needed(structure: Structure, largest: float) -> tuple[Needed, ...]:
         for plane in (joint.plane(axis) for axis in axes):
             add(TJoint(joint.section, joint.chord, structure.material_of(joint.branch), plane, largest), node)
     return tuple(found.values())
+
+
+def _beside_clamps(structure: Structure, member: str, axis: Axis) -> bool:
+    """Whether all hinges in a member itself have the law of tubes beside a clamp about an axis."""
+    joints = {corner_name(node) for node in corners(structure)}
+    places = [place for place in member_hinge_places(structure, member) if place.name not in joints]
+    return bool(places) and all(has_clamped_law(structure, about_axis(place, axis)) for place in places)
 
 
 def is_joint(model: SubModel) -> bool:

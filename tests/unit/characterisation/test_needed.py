@@ -29,6 +29,17 @@ def test_every_distinct_member_and_corner_is_needed_once():
     assert len({one.place for one in found}) == len(found) == 2
 
 
+@pytest.mark.parametrize(("depth", "needs"), [(0.025, True), (0.070, False)])
+def test_members_whose_folds_have_the_table_of_clamped_tubes_need_no_law(depth, needs):
+    frame = load("examples/12_l_frame.yaml").structure
+    (name,) = frame.sections
+    tube = {"type": "rectangular_tube", "width": 0.050, "depth": depth, "thickness": 0.00265}
+    changed = frame.model_copy(update={"sections": {name: tube}})
+    loads = [(one.model.load, one.model.angle is None, one.where) for one in needed(changed, LARGEST)]
+    assert (("bending", True, ("post",)) in loads) == needs
+    assert ("bending", False, ("corner",)) in loads
+
+
 def test_joints_of_more_than_two_members_are_listed_with_the_reason():
     whole = load("examples/09_box_frame.yaml").structure
     assert set(left_out(whole).values()) == {"3 members meet"}

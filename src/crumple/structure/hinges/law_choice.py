@@ -17,6 +17,8 @@ from crumple.structure.remembered import remembered
 
 KEPT = 1024
 """Laws that a process keeps."""
+CLAMPED = "clamped_tube"
+"""Law of folds beside clamps and joints; it goes before a stored one, whose fold lies between two pieces."""
 
 
 def automatic_law(structure: StructureParts, reference: LawReference | None) -> LawKeys | None:
@@ -45,10 +47,10 @@ def chosen_law(
 
     def choose() -> LawKeys:
         section, material = structure.section_of(member), structure.material_of(member)
-        text = stored_text(structure, place_hash(section, material, axis)) if structure.laws else None
-        if text is not None:
-            return with_type(asked, "file", text=text)
         kind = automatic_type(section, material, axis, fold, build=formula)
+        text = stored_text(structure, place_hash(section, material, axis)) if structure.laws else None
+        if text is not None and kind != CLAMPED:
+            return with_type(asked, "file", text=text)
         return plain_law(kind) if asked == plain_law(AUTO) else with_type(asked, kind)
 
     return structure.kept.once("chosen law", (spec.section, spec.material, axis, asked, fold), choose)

@@ -22,7 +22,7 @@ from crumple.structure.hinges.corners import corners
 from crumple.structure.hinges.elastic_members import with_elastic_members
 from crumple.structure.hinges.hinges import plastic_hinges
 from crumple.structure.hinges.law_choice import automatic_law, stored_texts
-from crumple.structure.hinges.places import HingePlace, hinge_places, law_of
+from crumple.structure.hinges.places import HingePlace, has_clamped_law, hinge_places, law_of
 from crumple.structure.hinges.shares import about_axis, axes_of
 from crumple.structure.hinges.stored_loads import texts_of_loads
 from crumple.structure.hinges.t_joints import TPlace, t_joint_name, t_laws, t_places
@@ -126,11 +126,13 @@ def is_named_law(structure: StructureParts, place: HingePlace) -> bool:
 
 
 def _command(structure: StructureParts, place: HingePlace) -> str:
-    """Command that characterises the place."""
+    """Command that characterises the place; none beside a clamp whose law goes before a stored one."""
     spec = structure.members[place.member]
     joint = _joint_near(structure, place)
     if joint is not None:
         return _joint_command(structure, joint, place)
+    if has_clamped_law(structure, place):
+        return ""
     words = ["crumple", "characterise", f"{INPUT}:{spec.section}", "--material", f"{INPUT}:{spec.material}"]
     if place.axis != "y":
         words += ["--axis", place.axis]

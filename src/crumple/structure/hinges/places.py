@@ -16,7 +16,7 @@ from crumple.section import Axis, Section, fold_distance
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges.asked import where_automatic
 from crumple.structure.hinges.automatic import fold_of, hinges_of
-from crumple.structure.hinges.law_choice import automatic_law, chosen_law, formula, plain_law
+from crumple.structure.hinges.law_choice import CLAMPED, automatic_law, chosen_law, formula, plain_law
 from crumple.structure.hinges.runs.ends import holds_rotation
 from crumple.structure.hinges.struck_folds import with_dent
 from crumple.structure.keys.hinge_axes import HingeAxes
@@ -139,6 +139,15 @@ def _law_spec(structure: StructureParts, place: HingePlace) -> LawKeys:
         return place.law
     named = structure.hinge_laws.get(place.law)
     return plain_law(place.law) if named is None else named
+
+
+def has_clamped_law(structure: StructureParts, place: HingePlace) -> bool:
+    """Whether the law of a hinge is that of tubes beside a clamp or joint, which no stored one replaces."""
+    asked = automatic_law(structure, place.law)
+    if asked is None:
+        return False
+    fold = fold_of(structure, place.member, place.name)
+    return chosen_law(structure, place.member, place.axis, asked, fold).type == CLAMPED
 
 
 def law_of(structure: StructureParts, place: HingePlace) -> HingeLaw:

@@ -60,6 +60,19 @@ def test_a_store_does_not_hide_that_a_member_at_a_corner_names_nothing(key, kind
         frame({"post": {"nodes": ("a", "b"), **PLAIN}, "arm": arm}, laws=stored(tmp_path, MITRE))
 
 
+@pytest.mark.parametrize(("depth", "kind"), [(0.025, "file"), (0.070, "clamped_tube")])
+def test_a_stored_law_of_a_member_is_no_law_of_a_fold_beside_a_clamp(depth, kind, tmp_path):
+    tube = {"type": "rectangular_tube", "width": 0.050, "depth": depth, "thickness": 0.00265}
+    own = law_text(place_hash(RectangularTube(0.050, depth, 0.00265), METAL, "y"), 900.0, 800.0)
+    # a fold beside a clamp has its own table where the tube is deep; others fold as between two pieces
+    whole = frame(sections={"tube": tube}, laws=stored(tmp_path, own))
+    foot = placed_hinges(whole)[0]
+    assert (foot.name, foot.law.name) == ("post-a", kind)
+    use = law_uses(whole)["post-a"]
+    assert use.origin == ("stored" if kind == "file" else "library")
+    assert bool(use.command) == (kind == "file")
+
+
 def test_members_use_the_law_of_their_section_and_a_corner_its_own(tmp_path):
     whole = frame(laws=stored(tmp_path, STRAIGHT, MITRE))
     foot, corner = placed_hinges(whole)
