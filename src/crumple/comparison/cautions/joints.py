@@ -10,6 +10,7 @@ from crumple.structure.hinges.asked import automatic_of
 from crumple.structure.hinges.t_joints import t_laws, t_places
 from crumple.text.names import listed
 
+
 def joint_sentences(reference: Source, structure: Structure) -> Iterator[tuple[str, bool]]:
     """Cautions where the shells of the reference and the laws of the hinges mean different joints.
 

@@ -14,9 +14,7 @@ def cautions(structure, fidelity, t_joints):
     analysis = Analysis(title="T", structure=structure, duration=0.02, outputs=outputs)
     result = solve(with_frames(analysis), "multibody", checks=False)
     settings = {**result.provenance.settings, **({} if t_joints is None else {"t_joints": t_joints})}
-    reference = replace(
-        result, fidelity=fidelity, provenance=replace(result.provenance, settings=settings)
-    )
+    reference = replace(result, fidelity=fidelity, provenance=replace(result.provenance, settings=settings))
     said = compare(result, reference, structure).trust.cautions
     return [text for text in said if "T-joints m " in text]
 
