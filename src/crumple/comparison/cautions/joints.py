@@ -27,8 +27,8 @@ def joint_sentences(reference: Source, structure: Structure) -> Iterator[tuple[s
     own = t_laws(structure)
     if own and not welded:
         yield (
-            f"The hinges at the T-joints {listed(list(own))} have laws of welded joints, whose face folds; the "
-            f"{reference.name} run joins these members by rigid bodies, which are stronger. "
+            f"The hinges at the T-joints {listed(list(own))} have laws of welded joints, whose face folds; "
+            f"the {reference.name} run joins these members by rigid bodies, which are stronger. "
             "`analysis.shell.t_joints: welded` makes both alike.",
             True,
         )
@@ -39,8 +39,8 @@ def joint_sentences(reference: Source, structure: Structure) -> Iterator[tuple[s
     ]
     if other and welded:
         yield (
-            f"The {reference.name} run welds the T-joints {listed(other)} to one wall, which folds; the hinges "
-            "there have the laws of their members, which are stronger. `crumple characterise FILE` on the "
+            f"The {reference.name} run welds the T-joints {listed(other)} to one wall, which folds; the "
+            "hinges there have the laws of their members, which are stronger. `crumple characterise FILE` on the "
             "input finds laws of the joints.",
             True,
         )

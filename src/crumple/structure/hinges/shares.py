@@ -11,7 +11,7 @@ from crumple.errors import InputError
 from crumple.hinge.measured.library import is_of_joint
 from crumple.section import Axis, half_fold_length
 from crumple.structure.hinges.corner.across import ACROSS
-from crumple.structure.hinges.corner_laws import MITRED, turned_corner
+from crumple.structure.hinges.corner_laws import MITRED, corner_laws, corner_name, turned_corner
 from crumple.structure.hinges.corners import corners
 from crumple.structure.hinges.elastic_members import joint_stations, segments_of, shear_stretch
 from crumple.structure.hinges.flexibility import flexibility, tributary_lengths
@@ -103,6 +103,11 @@ def member_shares(
         return {place.name: share for place, share in zip(own, lengths, strict=True)}
 
     axial = along(lambda place: place.keys.axial is not None)
+    # the hinge of a corner lies at a node, where loads and obstacles act on either side of it
+    at_nodes = {corner_name(node) for node in member.nodes if node in corner_laws(structure)} if axial else ()
+    inside = along(lambda place: place.name in axial and place.name not in at_nodes) if at_nodes else None
+    if inside:
+        axial = dict.fromkeys(axial, 2.0 * _fold(structure, name)) | inside
     # the hinge of a corner has part of the twist of a rigid member; elastic ones twist on their own
     rigid_member = not segments_of(structure, name)
     twist = along(
@@ -116,9 +121,7 @@ def member_shares(
     nearest |= dict.fromkeys(axial, _between_joints(structure, name, rigid) if axial else 0.0)
     twisted = nearest
     if between:
-        section = structure.section_of(name)
-        fold = 2.0 * max(half_fold_length(section, axis) for axis in AXES)
-        twisted = {hinge: min(stretch, fold) for hinge, stretch in nearest.items()}
+        twisted = {hinge: min(stretch, 2.0 * _fold(structure, name)) for hinge, stretch in nearest.items()}
     return [
         HingeShares(
             {
@@ -133,6 +136,11 @@ def member_shares(
         )
         for place in places
     ], found
+
+
+def _fold(structure: StructureParts, name: str) -> float:
+    """Half the length of the longest bending fold of a member [m]."""
+    return max(half_fold_length(structure.section_of(name), axis) for axis in AXES)
 
 
 def _between_joints(structure: StructureParts, name: str, rigid: tuple[tuple[float, float], ...]) -> float:
