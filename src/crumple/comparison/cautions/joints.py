@@ -40,7 +40,7 @@ def joint_sentences(reference: Source, structure: Structure) -> Iterator[tuple[s
     if other and welded:
         yield (
             f"The {reference.name} run welds the T-joints {listed(other)} to one wall, which folds; the "
-            "hinges there have the laws of their members, which are stronger. `crumple characterise FILE` on the "
-            "input finds laws of the joints.",
+            "hinges there have the laws of their members, which are stronger. `crumple characterise FILE` "
+            "on the input finds laws of the joints.",
             True,
         )
