@@ -20,6 +20,7 @@ import numpy as np
 from crumple.hinge import HingeRecord, build_law, record_of
 from crumple.hinge.bending.estimate import automatic_type
 from crumple.hinge.record.record import Form
+from crumple.hinge.registry import Fold
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, Section
@@ -173,6 +174,18 @@ def _record(section: Section, material: Material, axis: Axis, rigidity: float, l
     )
 
 
+def _largest_moment(section: Section, material: Material, axis: Axis) -> float:
+    """Largest moment [N m] that a fold reaches anywhere in a member, which ends the yielding of its walls.
+
+    Folds in different places have different laws; walls that yielded at less than a fold beside them takes
+    would do so without end in its place.
+    """
+    folds: tuple[Fold | None, ...] = ("free", "clamped", None)
+    kinds = {automatic_type(section, material, axis, fold, build=formula) for fold in folds}
+    laws = [formula(kind, section, material, axis) for kind in kinds]
+    return max(float(law.moment_capacity(LAW_TURNS).max()) for law in laws)
+
+
 @remembered(KEPT)
 def _yielding(section: Section, material: Material, axis: Axis, rigidity: float) -> tuple[Floats, Floats]:
     """Plastic curvature from 0 [1/m] and moment [N m] of a section with plane walls, up to its fold."""
@@ -182,9 +195,7 @@ def _yielding(section: Section, material: Material, axis: Axis, rigidity: float)
     stress = material.flow_stress if curve is None else curve.yield_stress
     curvature = CURVATURES * stress * section.elastic_section_modulus(axis) / rigidity
     moment = bending_moment(section, material, axis, curvature)
-    kind = automatic_type(section, material, axis, build=formula)
-    fold = formula(kind, section, material, axis)
-    moment = np.minimum(moment, float(fold.moment_capacity(LAW_TURNS).max()))
+    moment = np.minimum(moment, _largest_moment(section, material, axis))
     plastic = np.maximum.accumulate(curvature - moment / rigidity)
     kept = np.concatenate([[True], np.diff(plastic) > 1e-9 * plastic[-1]])
     return plastic[kept] - plastic[0], moment[kept]
