@@ -325,7 +325,13 @@ def test_walls_beside_a_clamp_do_not_yield_in_place_of_the_stronger_fold_there()
     # the formula of this tube, which knows no flow stress, peaks a fifth below its table beside a clamp
     section = {"type": "rectangular_tube", "width": "30 mm", "depth": "50 mm", "thickness": "1.73 mm"}
     metal = PARTS["materials"]["steel"] | {"yield_stress": "330 MPa", "flow_stress": "460 MPa"}
-    member = {"nodes": ["root", "tip"], "section": "deep", "material": "steel", "elastic": 6, "hinges": "auto"}
+    member = {
+        "nodes": ["root", "tip"],
+        "section": "deep",
+        "material": "steel",
+        "elastic": 6,
+        "hinges": "auto",
+    }
     parts = {"materials": {"steel": metal}, "sections": {"deep": section}, "members": {"bar": member}}
     whole = Structure(**PARTS | parts)
     section, material = whole.section_of("bar"), whole.material_of("bar")
