@@ -134,7 +134,7 @@ def with_modes(
 
 
 def with_doubts(result: Result, analysis: Analysis) -> Result:
-    """A result with cautions for values far outside of their usual range and for doubtful members."""
+    """A result with cautions about its input: nothing acts, unusual values, doubtful members."""
     from crumple.result import Caution, sentences  # noqa: PLC0415
     from crumple.structure.checks.doubtful import input_doubts  # noqa: PLC0415
 

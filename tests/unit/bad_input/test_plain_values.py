@@ -26,7 +26,6 @@ outputs: {nodes: [tip]}
     [
         ("at: root", "at: ''", "members.beam.hinges[0].at", "neither a node nor a distance"),
         ("at: root", f"at: {'x' * 65}", "members.beam.hinges[0].at", "neither a node nor a distance"),
-        ("section: tube,", "section: tube, rigid: maybe,", "members.beam.rigid", "true or false is needed"),
         ("section: tube,", "section: tube, up: [0, 0, 0],", "members.beam.up", "the direction is zero"),
         (
             "analysis:",

@@ -288,6 +288,59 @@ def test_the_page_says_that_a_response_is_constant(browser, tmp_path):
     assert said == "m is constant, 2.9 kg in all rows: no variable has an effect on it."
 
 
+TEXTS = """(() => {
+  const svg = document.querySelector('#effects svg'), all = svg.getBoundingClientRect();
+  return JSON.stringify([[all.left, all.right], ...[...svg.querySelectorAll('text')].map((text) => {
+    const box = text.getBoundingClientRect(), whole = text.querySelector('title');
+    return [box.left, box.right, box.top, box.bottom, text.firstChild.data, whole ? whole.textContent : ''];
+  })]);
+})()"""
+LONG = "outer_diameter_of_the_longest_of_all_tubes_of_the_frame_with_two_storeys_in_the_plane_of_the_impact"
+STEEL = "S355_of_the_first_delivery_of_the_year_in_which_it_was_rolled"
+
+
+def tornado(browser, study, folder, width):
+    """Boxes and words of the texts of a tornado with long names, also of ends, and with a bar of one end."""
+    ends = {"low": 2.3, "high": 6.16, "at_low": "≥ 2.783 mm", "at_high": "≤ 1.198 mm"}
+    bars = [
+        ends | {"variable": "wall_of_the_tube_at_its_root"},
+        ends | {"variable": "v", "low": 6.1, "high": 2.4},
+        ends | {"variable": LONG, "low": 4.5},
+        ends | {"variable": "steel", "at_low": STEEL, "at_high": "S700"},
+        ends | {"variable": "one_end_only", "low": 3.9, "high": 3.9},
+    ]
+    effects = [{"response": "r", "unit": "kN*mm*deg^-1*s^-2", "mean": 3.86, "bars": bars}]
+    page, _ = write_study_page(study[3] | {"effects": effects, "alike": {}}, [], folder)
+    browser.open(page.as_uri(), width, 900)
+    browser.settle()
+    return bars, *json.loads(browser.evaluate(TEXTS))
+
+
+@pytest.mark.parametrize("width", [1400, 1100, 420])
+def test_texts_of_a_tornado_are_apart_and_of_one_size(browser, study, tmp_path, width):
+    bars, (first, last), *texts = tornado(browser, study, tmp_path, width)
+    assert len(texts) == 3 * len(bars) + 3
+    for i, (left, right, top, bottom, _, _) in enumerate(texts):
+        assert first - 1 <= left < right <= last + 1, i
+        assert 12 <= bottom - top <= 17, i
+        for a, b, c, d, *words in texts[:i]:
+            assert right <= a or b <= left or bottom <= c + 2 or d <= top + 2, words
+    # a name stands above its bar, and whatever is cut has the whole where the pointer rests on it
+    top_of = {whole or shown: top for _, _, top, _, shown, whole in texts}
+    assert top_of[LONG] < top_of[STEEL]
+    for *_, shown, whole in texts:
+        assert bool(whole) == shown.endswith("…")
+        assert whole.startswith(shown.rstrip("…")) or not whole
+    assert {shown for *_, shown, _ in texts} >= {"wall_of_the_tube_at_its_root", "v", "S700", "≥ 2.783 mm"}
+
+
+def test_figures_are_drawn_again_where_their_width_changes(browser, study, tmp_path):
+    tornado(browser, study, tmp_path, 1400)
+    browser.evaluate("document.querySelector('#effects > div').style.width = '310px'; 1")
+    browser.settle()
+    assert browser.evaluate("document.querySelector('#effects svg').viewBox.baseVal.width") == 310
+
+
 def test_the_page_fits_a_phone(browser, study):
     opened(browser, study[4], 390)
     assert browser.evaluate("document.documentElement.scrollWidth") <= 390

@@ -111,6 +111,13 @@ ${new XMLSerializer().serializeToString(standalone(figure()))}`;
   var tidy = (x) => String(Number(x.toPrecision(3)));
 
   // report/study_bars.ts
+  var pixels = (parent) => Math.max(300, Math.min(864, parent.clientWidth || 760));
+  var long = (label2) => label2.getComputedTextLength() || 7 * (label2.textContent?.length ?? 0);
+  function shorten(label2, room) {
+    const text = label2.textContent ?? "";
+    for (let most = text.length - 1; most > 0 && long(label2) > room; most--) label2.textContent = `${text.slice(0, most)}…`;
+    if (label2.textContent !== text) draw("title", {}, label2, text);
+  }
   function paintTornado(effect, parent) {
     parent.replaceChildren();
     if (!effect) return;
@@ -118,23 +125,37 @@ ${new XMLSerializer().serializeToString(standalone(figure()))}`;
       make("p", parent, `${effect.response} is constant, ${tidy(effect.mean)}${effect.unit ? ` ${effect.unit}` : ""} in all rows: no variable has an effect on it.`);
       return;
     }
-    const WIDE = 480, LINE = 30, NAMES = 120, ENDS = 96, svg = draw("svg", { viewBox: `0 0 ${WIDE} ${LINE * effect.bars.length + 46}`, role: "img", "aria-label": `Tornado of ${effect.response}` }, parent);
+    const WIDE = pixels(parent), LINE = 42, end = LINE * effect.bars.length + 8;
+    const svg = draw("svg", { viewBox: `0 0 ${WIDE} ${end + 38}`, role: "img", "aria-label": `Tornado of ${effect.response}` }, parent);
     const all = effect.bars.flatMap((bar) => [bar.low, bar.high]).concat(effect.mean), low = Math.min(...all), high = Math.max(...all);
-    const x = (v) => NAMES + ENDS + (WIDE - NAMES - 2 * ENDS) * (v - low) / (high - low || 1), end = LINE * effect.bars.length + 8;
-    effect.bars.forEach((bar, i) => {
-      const y = 8 + LINE * i, [a, b] = [bar.low, bar.high];
-      draw("text", { x: NAMES, y: y + 15, "text-anchor": "end", class: "name" }, svg, bar.variable);
-      draw("rect", { x: Math.min(x(a), x(effect.mean)), width: Math.abs(x(a) - x(effect.mean)), y, height: LINE - 10, class: "low" }, svg);
-      draw("rect", { x: Math.min(x(b), x(effect.mean)), width: Math.abs(x(b) - x(effect.mean)), y, height: LINE - 10, class: "high" }, svg);
-      const left = a <= b;
-      draw("text", { x: x(a) + (left ? -4 : 4), y: y + 14, "text-anchor": left ? "end" : "start" }, svg, bar.at_low);
-      draw("text", { x: x(b) + (left ? 4 : -4), y: y + 14, "text-anchor": left ? "start" : "end" }, svg, bar.at_high);
+    const texts = effect.bars.map((bar) => {
+      const [before, after] = bar.low <= bar.high ? [bar.at_low, bar.at_high] : [bar.at_high, bar.at_low];
+      return {
+        name: draw("text", { x: 0, class: "name" }, svg, bar.variable),
+        ends: [draw("text", { "text-anchor": "end" }, svg, before), draw("text", { "text-anchor": "start" }, svg, after)]
+      };
     });
-    draw("line", { x1: x(effect.mean), x2: x(effect.mean), y1: 2, y2: end, class: "mean" }, svg);
+    const room = (side) => Math.min(Math.max(...texts.map(({ ends }) => long(ends[side])), 56) + 8, 0.35 * WIDE);
+    const left = room(0), x = (v) => left + (WIDE - left - room(1)) * (v - low) / (high - low || 1);
+    effect.bars.forEach((bar, i) => {
+      const y = 22 + LINE * i, { name, ends: [before, after] } = texts[i], first2 = x(Math.min(bar.low, bar.high, effect.mean)), last = x(Math.max(bar.low, bar.high, effect.mean));
+      name.setAttribute("y", String(y - 6));
+      shorten(name, WIDE);
+      for (const [v, kind] of [[x(bar.low), "low"], [x(bar.high), "high"]]) {
+        draw("rect", { x: Math.min(v, x(effect.mean)), width: Math.abs(v - x(effect.mean)), y, height: 20, class: kind }, svg);
+      }
+      draw("line", { x1: x(effect.mean), x2: x(effect.mean), y1: y - 2, y2: y + 22, class: "mean" }, svg);
+      for (const [label2, at2, most] of [[before, first2 - 4, first2 - 4], [after, last + 4, WIDE - last - 4]]) {
+        label2.setAttribute("x", String(at2));
+        label2.setAttribute("y", String(y + 14));
+        shorten(label2, most);
+      }
+    });
     const unit = effect.unit ? ` ${effect.unit}` : "";
-    draw("text", { x: x(effect.mean), y: end + 14, "text-anchor": "middle" }, svg, `mean ${tidy(effect.mean)}${unit}`);
-    draw("text", { x: x(low), y: end + 30, "text-anchor": "middle" }, svg, tidy(low) + unit);
-    draw("text", { x: x(high), y: end + 30, "text-anchor": "middle" }, svg, tidy(high) + unit);
+    for (const [v, y, text] of [[effect.mean, end + 14, `mean ${tidy(effect.mean)}`], [low, end + 30, tidy(low)], [high, end + 30, tidy(high)]]) {
+      const label2 = draw("text", { y, "text-anchor": "middle" }, svg, text + unit), half = 0.5 * long(label2);
+      label2.setAttribute("x", String(Math.max(half, Math.min(x(v), WIDE - half))));
+    }
     const named = effect.response + (effect.unit ? `, ${effect.unit}` : ""), heads = ["variable", "at its low end", named, "at its high end", named];
     const data2 = () => csv([heads, ...effect.bars.map((bar) => [bar.variable, bar.at_low, bar.low, bar.at_high, bar.high]), ["mean", "", effect.mean, "", effect.mean]]);
     parent.append(fileButtons(`tornado_${effect.response}`, () => svg, data2));
@@ -147,7 +168,7 @@ ${new XMLSerializer().serializeToString(standalone(figure()))}`;
       return;
     }
     said.textContent = curve.band.length ? "After so many rows, with its 95 % interval." : "After so many rows, among those that keep all constraints.";
-    const WIDE = 500, TALL = 200, LEFT = 76, svg = draw("svg", { viewBox: `0 0 ${WIDE} ${TALL}`, role: "img", "aria-label": curve.name }, parent);
+    const WIDE = pixels(parent), TALL = 230, LEFT = 76, svg = draw("svg", { viewBox: `0 0 ${WIDE} ${TALL}`, role: "img", "aria-label": curve.name }, parent);
     const known = curve.values.flatMap((v, i) => v === null ? [] : [i]);
     if (!known.length) {
       said.textContent = "No row keeps all constraints.";
@@ -163,7 +184,7 @@ ${new XMLSerializer().serializeToString(standalone(figure()))}`;
       draw("text", { x: LEFT - 6, y: y(v) + 4, "text-anchor": "end" }, svg, Number(v.toPrecision(4)));
     }
     draw("polyline", { points: path(curve.values, 1).join(" "), class: "curve" }, svg);
-    draw("text", { x: LEFT, y: 14, class: "name" }, svg, curve.name + (curve.unit ? `, ${curve.unit}` : ""));
+    shorten(draw("text", { x: 0, y: 14, class: "name" }, svg, curve.name + (curve.unit ? `, ${curve.unit}` : "")), WIDE);
     draw("text", { x: WIDE - 20, y: TALL - 12, "text-anchor": "end" }, svg, `${last} rows`);
     const heads = ["rows", curve.name + (curve.unit ? `, ${curve.unit}` : ""), ...curve.band.map((_, end) => end ? "upper end" : "lower end")];
     const data2 = () => csv([heads, ...curve.rows.map((r, i) => [r, curve.values[i], ...curve.band.map((end) => end[i])])]);
@@ -172,9 +193,17 @@ ${new XMLSerializer().serializeToString(standalone(figure()))}`;
   function offer(id, entries, name, put) {
     const select = find(`#${id} select`), parent = find(`#${id} > div`);
     entries.forEach((entry, i) => select.add(new Option(name(entry), String(i))));
-    select.addEventListener("change", () => put(entries[Number(select.value)], parent));
-    put(entries[0], parent);
+    let painted = 0;
+    const paint2 = () => {
+      painted = parent.clientWidth;
+      put(entries[Number(select.value)], parent);
+    };
+    select.addEventListener("change", paint2);
+    paint2();
     if (!entries.length) find(`#${id}`).hidden = true;
+    new ResizeObserver(() => {
+      if (parent.clientWidth && parent.clientWidth !== painted) paint2();
+    }).observe(parent);
   }
 
   // report/study_rows.ts

@@ -26,7 +26,8 @@ from numpy.typing import NDArray
 
 from crumple.hinge.corner.in_plane import SMALLEST
 from crumple.numeric.arrays import Floats
-from crumple.structure.checks.standing import nothing_acts, standing_doubts
+from crumple.structure.checks.at_rest import nothing_acts
+from crumple.structure.checks.standing import standing_doubts
 from crumple.structure.checks.unusual import Unusual, unusual_values
 from crumple.structure.geometry import NARROWEST
 from crumple.structure.hinges.corners import leaving
@@ -112,7 +113,9 @@ def doubtful_members(structure: StructureParts) -> tuple[Unusual, ...]:
 def input_doubts(
     structure: StructureParts, duration: float, stages: Sequence[Stage] = ()
 ) -> tuple[Unusual, ...]:
-    """What is to be said of an input before it is solved: unusual values, doubtful members, standing masses.
+    """What is to be said of an input before it is solved.
+
+    That nothing acts, unusual values, doubtful members, and standing masses.
 
     Parameters
     ----------
@@ -124,10 +127,10 @@ def input_doubts(
         Of the run.
     """
     return (
+        *nothing_acts(structure, duration, stages),
         *unusual_values(structure, duration),
         *doubtful_members(structure),
         *standing_doubts(structure, stages),
-        *nothing_acts(structure, stages),
     )
 
 

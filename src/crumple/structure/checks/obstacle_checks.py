@@ -33,7 +33,7 @@ def obstacle_problems(structure: StructureParts, known: Mapping[str, Names]) -> 
         if name in known["supports"]:
             what, todo = f"a support and an obstacle are both called '{name}'", "rename one of them"
             yield Problem(what, name, "a name of its own", todo, where)
-        for key, function in _functions(obstacle):
+        for key, function in prescribed(obstacle):
             start = float(function(0.0))
             if abs(start) > JUMP:
                 what, todo = "the prescribed motion starts with a jump", "let it start from 0"
@@ -173,7 +173,8 @@ def _until_problems(until: Until, stage: Stage, structure: StructureParts, where
         yield Problem(what, str(until.of), "an obstacle or a driven support", todo, f"{where}.of")
 
 
-def _functions(obstacle: Obstacle) -> Iterator[tuple[str, TimeFunction]]:
+def prescribed(obstacle: Obstacle) -> Iterator[tuple[str, TimeFunction]]:
+    """Prescribed motion of an obstacle: keys with their functions of time, [m] or [rad] against [s]."""
     for axis in ("x", "y", "z"):
         function = getattr(obstacle.motion, axis)
         if function is not None:

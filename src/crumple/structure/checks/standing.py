@@ -1,4 +1,4 @@
-"""What stands still although it is mostly meant to move: everything, or masses on members that are thrown.
+"""Masses that do not move with members that are thrown: mostly an initial velocity that lacks a node.
 
 A mass moves with members where all that end at its node do.  Not reported: masses whose node is named, and
 motion that supports take.
@@ -45,31 +45,6 @@ def standing_doubts(structure: StructureParts, stages: Sequence[Stage] = ()) -> 
     for names in masses.values():
         for name in names:
             yield Unusual(f"mass {name}", structure.masses[name].mass, 0.0, "kg", text, "standing_mass")
-
-
-def nothing_acts(structure: StructureParts, stages: Sequence[Stage] = ()) -> Iterator[Unusual]:
-    """A sentence if neither an initial motion nor a load, a drive or an obstacle moves anything.
-
-    Parameters
-    ----------
-    structure
-        Checked.
-    stages
-        Of the run.
-    """
-    acts = (
-        any(structure.gravity),
-        structure.initial_velocity or structure.impulses or structure.loads,
-        *(stage.initial_velocity or stage.impulses for stage in stages),
-        *(support.driven for support in structure.supports.values()),
-        *(obstacle.driven or any(obstacle.velocity) for obstacle in structure.obstacles.values()),
-    )
-    if not any(acts):
-        text = (
-            "Nothing loads or moves the structure: give an initial_velocity, impulses, loads, gravity, a "
-            "support with a motion, or an obstacle with a velocity or motion."
-        )
-        yield Unusual("structure", 0.0, 0.0, "1", text, "nothing_acts")
 
 
 def _thrown(structure: StructureParts, stages: Sequence[Stage]) -> Iterator[Fields]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
@@ -99,7 +99,15 @@ class AxisLaws(Spec):
 
 def _yes(given: Any) -> Any:
     """`true` means with all defaults, `false` not at all."""
-    return {True: {}, False: None}[given] if isinstance(given, bool) else given
+    if isinstance(given, bool):
+        return {True: {}, False: None}[given]
+    if given is not None and not isinstance(given, Mapping | Spec):
+        refuse(
+            "this does not say whether the hinge changes its length",
+            allowed="true, false, or keys such as {law: NAME}",
+            todo="write true or false without quotation marks, or keys",
+        )
+    return given
 
 
 class HingeAxes(Spec):

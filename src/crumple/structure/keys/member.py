@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from numbers import Integral
 from typing import Annotated, Any, Literal
 
@@ -27,6 +28,7 @@ from crumple.registry.quantity import (
 )
 from crumple.registry.refusal import refuse
 from crumple.structure.keys.hinge_axes import HingeAxes
+from crumple.structure.schema.problems import suggestion
 from crumple.structure.schema.spec import Name, Spec
 
 MOST_BARS = 10_000
@@ -88,11 +90,34 @@ class AutomaticHinges(HingeAxes):
     are one tube count as one, with a candidate at each node between them."""
 
 
+def _is_group(given: Any) -> bool:
+    return isinstance(given, Mapping | Spec)
+
+
 def _automatic(given: Any) -> Any:
-    if isinstance(given, str) and given != "auto":
-        allowed = "auto, or keys such as axes: [y, z]; in a member also a list of hinges"
-        refuse(f"automatic hinges are not described by '{given[:40]}'", allowed=allowed, todo="write auto")
-    return {} if given == "auto" else given
+    allowed = "auto, or keys such as axes: [y, z]"
+    if isinstance(given, list | tuple):
+        refuse(
+            "a list of hinges belongs to a member",
+            allowed=allowed,
+            todo="write it as members.NAME.hinges, or 'auto' here for all members",
+        )
+    return _keys_of_auto(given, allowed, "write auto")
+
+
+def _automatic_here(given: Any) -> Any:
+    allowed = "auto, a list of hinges, or keys such as axes: [y, z]"
+    return _keys_of_auto(given, allowed, "write auto, or a list such as [{name: root, at: NODE}]")
+
+
+def _keys_of_auto(given: Any, allowed: str, todo: str) -> Any:
+    """No keys for `auto`; a group of keys as it is."""
+    if isinstance(given, str) and given == "auto":
+        return {}
+    if not _is_group(given):
+        meant = suggestion(given, ["auto"]) if isinstance(given, str) else ""
+        refuse("this does not say where hinges are", allowed=allowed, todo=meant or todo)
+    return given
 
 
 def _hinges_tag(given: Any) -> str:
@@ -103,8 +128,13 @@ OnlyAutomatic = Annotated[
     AutomaticHinges, BeforeValidator(_automatic, json_schema_input_type=Literal["auto"] | AutomaticHinges)
 ]
 """`auto`, or how."""
+AutomaticHere = Annotated[
+    AutomaticHinges,
+    BeforeValidator(_automatic_here, json_schema_input_type=Literal["auto"] | AutomaticHinges),
+]
+"""The same beside a list of hinges."""
 GivenOrAutomatic = Annotated[
-    Annotated[tuple[Hinge, ...], Tag("(list)")] | Annotated[OnlyAutomatic, Tag("(automatic)")],
+    Annotated[tuple[Hinge, ...], Tag("(list)")] | Annotated[AutomaticHere, Tag("(automatic)")],
     Discriminator(_hinges_tag),
 ]
 """List of hinges, or `auto`."""
@@ -131,7 +161,15 @@ class Bars(HingeAxes, Division):
 
 
 def _number_of_bars(given: Any) -> Any:
-    return {"number": given} if isinstance(given, Integral) and not isinstance(given, bool) else given
+    if isinstance(given, Integral) and not isinstance(given, bool):
+        return {"number": given}
+    if not _is_group(given):
+        refuse(
+            "this is not a number of bars",
+            allowed="a whole number, or keys such as {number: 4, axis: y}",
+            todo="write the number without quotation marks, for example 4",
+        )
+    return given
 
 
 class Stretch(Spec):
@@ -153,15 +191,42 @@ def _rigid_tag(given: Any) -> str:
     return "(list)" if isinstance(given, list | tuple) else "(whole)"
 
 
+def _true_or_false(given: Any) -> Any:
+    if not isinstance(given, bool):
+        refuse(
+            "this does not say what is rigid",
+            allowed="true, false, or a list of parts such as [{from: 0 mm, to: 100 mm}]",
+            todo="write true or false without quotation marks, or a list",
+        )
+    return given
+
+
 Rigid = Annotated[
-    Annotated[tuple[Stretch, ...], Tag("(list)")] | Annotated[bool, Field(strict=True), Tag("(whole)")],
+    Annotated[tuple[Stretch, ...], Tag("(list)")]
+    | Annotated[bool, BeforeValidator(_true_or_false), Tag("(whole)")],
     Discriminator(_rigid_tag),
 ]
 """Whether a member is rigid, or which parts of it are."""
 
 
 def _segments(given: Any) -> Any:
-    return SEGMENTS * given if isinstance(given, bool) else given
+    if isinstance(given, bool):
+        return SEGMENTS * given
+    if not _is_whole(given):
+        refuse(
+            "this does not say whether it is elastic",
+            allowed=f"true, false, or a whole number of segments, 0 to {MOST_SEGMENTS}",
+            todo="write true or false without quotation marks, or a whole number",
+        )
+    return given
+
+
+def _is_whole(given: Any) -> bool:
+    """Whether it is a whole number or spelt as one."""
+    try:
+        return float(given).is_integer()
+    except (TypeError, ValueError, OverflowError):
+        return False
 
 
 Elastic = Annotated[

@@ -10,7 +10,7 @@ from functools import cached_property
 from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, Tag, ValidationError
 
 from crumple.errors import Problem
 from crumple.text.names import listed
@@ -252,10 +252,21 @@ def _below(kind: Any, part: str | int) -> list[Any]:
         fields = kind.model_fields.items()
         return [field.annotation for name, field in fields if part in {name, field.alias}]
     if isinstance(part, str) and part.startswith("("):
-        return [model for model in _models([kind]) if _tag_of(model) == part]
+        models = [model for model in _models([kind]) if _tag_of(model) == part]
+        return models or _tagged(kind, part)
     if get_origin(kind) in {Annotated, Union, UnionType}:
         return [deeper for argument in get_args(kind) for deeper in _below(argument, part)]
     return list(get_args(kind))
+
+
+def _tagged(kind: Any, tag: str) -> list[Any]:
+    """Alternatives that a tag names, looked for through Annotated and Union alone."""
+    arguments = get_args(kind)
+    if get_origin(kind) is Annotated and any(isinstance(one, Tag) and one.tag == tag for one in arguments):
+        return [kind]
+    if get_origin(kind) in {Annotated, Union, UnionType}:
+        return [found for argument in arguments for found in _tagged(argument, tag)]
+    return []
 
 
 def _tag_of(model: type[BaseModel]) -> str:

@@ -182,7 +182,7 @@ def test_hinges_in_rigid_parts_and_parts_outside_are_refused():
     assert problem.where == "members.hard.rigid[0].to"
     (problem,) = refused(rigid=[{"from": 0.1, "to": 0.101}])
     assert problem.what == "a rigid part is shorter than an element"
-    with pytest.raises(InputError, match="true or false"):
+    with pytest.raises(InputError, match="true, false, or a list of parts"):
         bar("yes")
     with pytest.raises(InputError, match="ends before it begins"):
         bar([{"from": 0.2, "to": 0.1}])

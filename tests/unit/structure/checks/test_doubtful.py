@@ -8,7 +8,7 @@ from typer.testing import CliRunner
 
 from crumple.analysis import load, loads, solve
 from crumple.cli.main import app
-from crumple.structure.checks.doubtful import doubtful_members, input_doubts
+from crumple.structure.checks.doubtful import doubtful_members
 
 EXAMPLES = Path(__file__).parents[4] / "examples"
 FRAME = """crumple: 1
@@ -196,41 +196,3 @@ def test_examples_and_structures_of_the_suite_have_none():
     assert len(files) > 40
     for file in files:
         assert doubtful_members(load(file).structure) == (), file
-
-
-THROWN = "initial_velocity: [{nodes: [tip], translation: [0 m/s, 0 m/s, -5 m/s]}]\n"
-RISE = "{table: {time: [0 ms, 5 ms], value: [0 VALUE, 1 VALUE]}}"
-
-
-@pytest.mark.parametrize(
-    "moved",
-    [
-        THROWN,
-        "impulses: [{node: tip, impulse: [0 N*s, 0 N*s, 5 N*s]}]\n",
-        "loads: [{node: tip, force: {z: RISE}}]\n".replace("RISE", RISE.replace("VALUE", "kN")),
-        "gravity: [0 m/s^2, 0 m/s^2, -9.81 m/s^2]\n",
-        "obstacles: {w: {type: sphere, point: [1 m, 0 m, 0 m], radius: 50 mm, mass: 5 kg, guide: [1, 0, 0],"
-        " velocity: [-5 m/s, 0 m/s, 0 m/s]}}\n",
-    ],
-)
-def test_a_structure_that_nothing_moves_is_named(moved):
-    still = loads(frame().replace(THROWN, "").replace("NODES", "").replace("MEMBERS", ""))
-    (found,) = (one for one in input_doubts(still.structure, 0.01) if one.code == "nothing_acts")
-    assert found.text.startswith("Nothing loads or moves the structure: give an initial_velocity")
-    whole = loads(frame().replace(THROWN, moved)).structure
-    assert not any(one.code == "nothing_acts" for one in input_doubts(whole, 0.01))
-
-
-def test_a_drive_or_a_stage_moves_a_structure():
-    driven = "supports: {clamp: {node: foot, fix: all}, hand: {node: tip, motion: {z: RISE}}}".replace(
-        "RISE", RISE.replace("VALUE", "mm")
-    )
-    still = frame().replace(THROWN, "")
-    whole = loads(still.replace("supports: {clamp: {node: foot, fix: all}}", driven)).structure
-    assert not any(one.code == "nothing_acts" for one in input_doubts(whole, 0.01))
-    stage = "analysis: {stages: [{name: a, duration: 10 ms, IMPULSE}]}"
-    thrown = stage.replace("IMPULSE", THROWN.strip())
-    staged = loads(still.replace("analysis: {duration: 10 ms}", thrown))
-    assert not any(one.code == "nothing_acts" for one in input_doubts(staged.structure, 0.01, staged.stages))
-    empty = loads(still.replace("analysis: {duration: 10 ms}", stage.replace(", IMPULSE", "")))
-    assert any(one.code == "nothing_acts" for one in input_doubts(empty.structure, 0.01, empty.stages))

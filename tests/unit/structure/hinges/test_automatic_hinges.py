@@ -222,15 +222,3 @@ def test_joints_between_an_end_and_the_fold_there_do_not_yield():
         inside = [joint for joint in joints if joint not in ends]
         assert inside
         assert all(float(joint.record.positive.moment[0]) <= strongest for joint in inside)
-
-
-@pytest.mark.parametrize("where", ["structure", "member"])
-def test_a_misspelt_auto_is_refused_with_what_may_stand_there(where):
-    keys = {"hinges": "atuo"} if where == "structure" else {}
-    members = {"ab": member("a", "b", hinges="atuo" if where == "member" else "auto")}
-    with pytest.raises(InputError) as caught:
-        structure(members=members, **keys)
-    (problem,) = caught.value.problems
-    assert problem.what == "automatic hinges are not described by 'atuo'"
-    assert problem.allowed.startswith("auto, or keys such as axes: [y, z]; in a member also a list of hinges")
-    assert problem.todo == "write auto"
