@@ -250,7 +250,7 @@ def _result(
     solved = replace(solved, bending_tried=run.bending_tried)
     bound = run.settings.energy_residual_bound
     status, reason = outcome_status(solved.outcome, solved.reason, solved.residual, bound)
-    slow = any(stage.kind == "quasi-static" for stage in run.stages)
+    slow = [stage.name for stage in run.stages if stage.kind == "quasi-static"]
     cautions = physics_cautions(structure, solved, slow=slow)
     if status.ok and any(caution.violation for caution in cautions):
         status = Status.IMPOSSIBLE

@@ -8,7 +8,7 @@ vanished where bodies are rigid, folds that are closed.  Formulas and limits: do
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from crumple.multibody.checks.crushing import buckling_cautions, closed_together
 from crumple.multibody.checks.folded_over import folded_over
 from crumple.multibody.checks.names import named
 from crumple.multibody.checks.overloaded import overloaded_sections
-from crumple.multibody.checks.struck import struck_cautions
+from crumple.multibody.checks.struck import pressed_beyond, struck_cautions
 from crumple.multibody.checks.torque import torques_without_twist
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import turned
@@ -63,7 +63,7 @@ def energy_put_in(solved: Solved) -> float:
     return max(kinetic, solved.given - solved.lost) + float(np.abs(solved.energy["external_work"]).max())
 
 
-def physics_cautions(structure: Structure, solved: Solved, *, slow: bool) -> tuple[Caution, ...]:
+def physics_cautions(structure: Structure, solved: Solved, *, slow: Collection[str]) -> tuple[Caution, ...]:
     """Cautions of all checks that a multibody run did not pass.
 
     Parameters
@@ -71,7 +71,7 @@ def physics_cautions(structure: Structure, solved: Solved, *, slow: bool) -> tup
     structure, solved
         The structure and the result of its run.
     slow
-        Whether a stage was quasi-static.
+        Names of the stages that were quasi-static.
     """
     if len(solved.time) < 2:
         return ()
@@ -85,6 +85,7 @@ def physics_cautions(structure: Structure, solved: Solved, *, slow: bool) -> tup
         *crushing_cautions(structure, solved, struck=struck),
         *(buckling_cautions(structure, solved) if slow else ()),
         *struck_cautions(structure, solved),
+        *pressed_beyond(structure, solved, slow),
         *overloaded_sections(structure, solved),
         *torques_without_twist(structure, solved),
         *fast_nodes(structure, solved, total),

@@ -1,4 +1,6 @@
-"""Members with hinges of the input's own, none of which is where an obstacle strikes between their nodes.
+"""Obstacles that meet what cannot give way: where they strike between hinges, and when they press slowly.
+
+Members with hinges of the input's own may have none where an obstacle strikes between their nodes.
 
 They cannot fold there: rigid bars stop the obstacle at once.  Automatic hinges have a candidate there.  A
 hinge within one fold, two half lengths, stands for the fold, and so does what is at a node within one fold.
@@ -7,14 +9,18 @@ Members without any hinge are meant to keep their shape.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
+
+import numpy as np
 
 from crumple.multibody.answer.solved import Solved
 from crumple.result import Caution
 from crumple.section import AXES, half_fold_length
 from crumple.structure import Structure, plastic_hinges
 from crumple.structure.hinges.asked import automatic_of, folds_at_ends
+from crumple.structure.hinges.spatial_hinges import interaction_of
 from crumple.structure.struck_places import struck_places
+from crumple.units import format_quantity
 
 
 def struck_cautions(structure: Structure, solved: Solved | None = None) -> Iterator[Caution]:
@@ -56,6 +62,46 @@ def struck_cautions(structure: Structure, solved: Solved | None = None) -> Itera
                 f"Member {member} is in the path of obstacle {place.obstacle}, {where} from node {first}, "
                 f"where it has no hinge: it cannot fold there. Give it a hinge at {where}, or "
                 "'hinges: auto', which puts one there.",
+            )
+
+
+def pressed_beyond(structure: Structure, solved: Solved, slow: Collection[str]) -> Iterator[Caution]:
+    """A caution for every obstacle that presses slowly with more than all members can carry along their axes.
+
+    Parameters
+    ----------
+    structure, solved
+        The structure and its result.
+    slow
+        Names of the quasi-static stages: in an impact forces between rigid bodies have no bound.
+
+    Notes
+    -----
+    Where nothing gives way in the direction of a slow obstacle, the force jumps within a step.  The sum of
+    squash forces is an upper bound of what a structure carries; derived here.
+    """
+    stages = [stage for stage in solved.stages if stage.name in slow]
+    if not stages:
+        return
+    force = {channel.name: channel.values for channel in solved.further}
+    still = np.logical_or.reduce([(solved.time >= one.start) & (solved.time <= one.end) for one in stages])
+    metals = ((structure.section_of(name), structure.material_of(name)) for name in structure.members)
+    limit = sum(interaction_of(section, material).squash_force for section, material in metals)
+    for name in structure.obstacles:
+        own = np.linalg.norm([force[f"obstacle.{name}.force.{axis}"] for axis in "xyz"], axis=0)
+        most = float(own[still].max(initial=0.0))
+        if most > limit:
+            found, allowed = (format_quantity(one, "N", 3) for one in (most, limit))
+            yield Caution(
+                "pressed_beyond",
+                most,
+                limit,
+                "N",
+                f"obstacle {name}",
+                f"Obstacle {name} presses with up to {found} in a quasi-static stage, more than all members "
+                f"together carry along their axes ({allowed}): "
+                "nothing gives way there, and the force is not to be used. Let members bend and shorten "
+                "(analysis.multibody.members: elastic, or 'axial: true' of hinges).",
             )
 
 

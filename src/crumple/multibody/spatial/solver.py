@@ -180,7 +180,7 @@ class SpatialSolver:
             if len(records) == 1:
                 refuse_unbegun(records[0].outcome, records[0].time)
             conditions = kernel_conditions(self._structure, self.linkage, self._touching, stage)
-            ended = end_reason(stage, conditions, records[-1])
+            ended = end_reason(stage, conditions, records[-1], list(self._structure.obstacles))
             # a stage that was cancelled at its beginning has no output
             reached = float(records[-1].time[-1]) if len(records[-1].time) else begin
             lasted = records[-1].ended_by < 0 and not np.isfinite(records[-1].lost_time)

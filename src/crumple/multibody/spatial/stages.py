@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -24,6 +24,8 @@ Conditions = list[tuple[Until, SpatialUntil]]
 
 SAMPLES = 1001
 """Number of times in a stage at which its loads are evaluated."""
+PASSED = 1.1
+"""Force at the end of a stage over the one that ended it, above which both are said."""
 MOST_LOADS = 3
 """Largest number of loads in a sentence."""
 
@@ -73,8 +75,8 @@ def kernel_conditions(structure: Structure, linkage: Linkage, touching: Touching
     ]
 
 
-def end_reason(stage: Stage, conditions: Conditions, record: SpatialRecord) -> str:
-    """Reason for the end of a stage, as a sentence."""
+def end_reason(stage: Stage, conditions: Conditions, record: SpatialRecord, obstacles: Sequence[str]) -> str:
+    """Reason for the end of a stage, as a sentence; `obstacles`: names in the order of the record."""
     if math.isfinite(record.lost_time):
         return f"loss of equilibrium at {format_quantity(record.lost_time, 's', 4)}"
     if record.ended_by < 0:
@@ -83,7 +85,13 @@ def end_reason(stage: Stage, conditions: Conditions, record: SpatialRecord) -> s
     unit = {"force": "N", "energy": "J", "displacement": "m", "distance": "m"}[until.quantity]
     of = f" of {until.of}" if until.of else ""
     between = f" between {until.between[0]} and {until.between[1]}" if until.between else ""
-    return f"{until.quantity}{of}{between} reached {format_quantity(until.value, unit, 3)}"
+    asked = format_quantity(until.value, unit, 3)
+    if until.quantity == "force" and until.of in obstacles:
+        last = float(np.linalg.norm(record.obstacle_force[-1, obstacles.index(until.of)]))
+        if last > PASSED * until.value:
+            found = format_quantity(last, unit, 3)
+            return f"force{of} passed {asked} within a step, at the end of which it is {found}"
+    return f"{until.quantity}{of}{between} reached {asked}"
 
 
 def lost_equilibrium(structure: Structure, stage: Stage, begin: float, lost: float) -> str:
@@ -129,7 +137,7 @@ def _conditions(
         yield SpatialUntil(Quantity.FORCE, until.value, list(structure.obstacles).index(str(until.of)))
     else:
         joint, freedom = _driven(structure, linkage, touching, str(until.of))
-        if until.quantity == "force":
+        if until.quantity == "force" and until.of in obstacles:
             yield SpatialUntil(Quantity.DRIVE_FORCE, until.value, joint)
         else:
             yield from (

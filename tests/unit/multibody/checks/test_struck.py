@@ -1,8 +1,10 @@
 """A member with hinges of its own that lies in the path of an obstacle, with none of them there."""
 
+import numpy as np
 import pytest
 from tests.support.multibody.frames import LAW, structure
 
+from crumple.analysis import loads, solve
 from crumple.multibody import Run, solve_multibody, struck_cautions
 from crumple.structure import MultibodySettings
 
@@ -58,3 +60,51 @@ def test_the_result_says_so_if_the_obstacle_came_that_far(height, cautions):
     assert result.status.ok, result.reason
     assert [one.code for one in result.cautions].count("struck_between_hinges") == cautions
     assert sum("is in the path of obstacle pole" in text for text in result.warnings) == cautions
+
+
+PRESSED = """crumple: 1
+materials: {s: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 355 MPa}}
+sections: {post: {type: square_tube, side: 80 mm, thickness: 5 mm}}
+nodes: {a: [0 m, 0 m, 0 m], b: [0 m, 0 m, 1.5 m], c: [1 m, 0 m, 1.5 m], e: [1 m, 0 m, 0 m]}
+members:
+  p1: {nodes: [a, b], section: post, material: s}
+  bm: {nodes: [b, c], section: post, material: s}
+  p2: {nodes: [c, e], section: post, material: s}
+hinges: auto
+supports:
+  a: {node: a, fix: all}
+  e: {node: e, fix: all}
+  side: {node: b, motion: {x: {table: {time: [0 s, 1 s], value: [0 mm, 100 mm]}}}}
+obstacles:
+  press: {type: plane, point: [0 m, 0 m, 1.6 m], normal: [0, 0, -1], velocity: [0 m/s, 0 m/s, -0.3 m/s]}
+analysis:
+  multibody: {members: KIND}
+  stages:
+  - {name: push, kind: quasi-static, duration: 1 s, drive: [side], obstacles: [], until: [{energy: 500 J}]}
+  - {name: crush, kind: quasi-static, duration: 1 s, drive: [press], until: [{force: 80 kN, of: press}]}
+outputs: {every: 10 ms}
+"""
+SQUASH = 3 * 355e6 * 4 * 0.075 * 0.005
+"""Squash forces of the three members together [N]."""
+
+
+@pytest.mark.parametrize("kind", ["rigid", "elastic"])
+def test_a_slow_obstacle_on_bars_that_do_not_give_way_is_named(kind):
+    result = solve(loads(PRESSED.replace("KIND", kind)), checks=False)
+    largest = np.linalg.norm([result[f"obstacle.press.force.{axis}"] for axis in "xyz"], axis=0).max()
+    found = [one for one in result.cautions if one.code == "pressed_beyond"]
+    ended = result.stages[-1].ended_by
+    if kind == "elastic":
+        assert largest == pytest.approx(80e3, rel=0.02)
+        assert (found, ended) == ([], "force of press reached 80 kN")
+        return
+    (caution,) = found
+    assert (caution.place, caution.value) == ("obstacle press", pytest.approx(largest))
+    assert largest > caution.limit == pytest.approx(SQUASH, rel=0.01)
+    assert ended.startswith("force of press passed 80 kN within a step, at the end of which it is ")
+
+
+def test_forces_of_an_impact_have_no_such_bound():
+    text = PRESSED.replace("KIND", "rigid").replace("kind: quasi-static", "kind: dynamic")
+    result = solve(loads(text.replace("-0.3 m/s", "-3 m/s")), checks=False)
+    assert not [one for one in result.cautions if one.code == "pressed_beyond"]
