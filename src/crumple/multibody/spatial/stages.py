@@ -137,7 +137,7 @@ def _conditions(
         yield SpatialUntil(Quantity.FORCE, until.value, list(structure.obstacles).index(str(until.of)))
     else:
         joint, freedom = _driven(structure, linkage, touching, str(until.of))
-        if until.quantity == "force" and until.of in obstacles:
+        if until.quantity == "force":
             yield SpatialUntil(Quantity.DRIVE_FORCE, until.value, joint)
         else:
             yield from (
