@@ -157,7 +157,10 @@ def automatic_type(
     build
         Builds a law by its name.
     """
-    for laws in (_laws_of_fold(section, material, axis, fold), HARDENING_BENDING, DEFAULT_BENDING):
+    own = _laws_of_fold(section, material, axis, fold)
+    # beyond the library a flow stress counts as it does within it
+    harder = HARDENING_BENDING if hardens(material) or section.kind in own else {}
+    for laws in (own, harder, DEFAULT_BENDING):
         name = laws.get(section.kind)
         if name is None:
             continue

@@ -24,6 +24,8 @@ from crumple.hinge.stop import Stop
 from crumple.hinge.tube_library.formula_band import with_library_band
 from crumple.hinge.tube_library.hardening import HardeningEffect, at_yield, hardens
 from crumple.material import Material
+from crumple.material.hardening.table import HardeningTable
+from crumple.material.material import FOLD_STRAIN
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, CircularTube, RectangularTube, Section
 
@@ -71,7 +73,7 @@ class HardeningTubeLaw:
         section
             Rectangular or circular tube.
         material
-            With a hardening curve, which goes before a given flow stress.
+            With a hardening curve, or a flow stress above its yield stress in place of one.
         axis
             Axis of bending.
 
@@ -83,9 +85,11 @@ class HardeningTubeLaw:
         if not isinstance(section, (RectangularTube, CircularTube)):
             what, allowed = "this law is for tubes", "rectangular_tube or circular_tube"
             raise InputError(Problem(what, section.kind, allowed, "use auto for this section", "section"))
+        material = _with_curve(material)
         if not hardens(material):
             what, todo = "this law is for metals that harden", "give a hardening curve, or use the law auto"
-            raise InputError(Problem(what, material.name, "a hardening curve that rises", todo, "hardening"))
+            allowed = "a hardening curve that rises, or a flow stress above the yield stress"
+            raise InputError(Problem(what, material.name, allowed, todo, "hardening"))
         formula = build_law(DEFAULT_BENDING[section.kind], section, at_yield(material), axis)
         law = cls(formula, HardeningEffect.of(section, material, axis), formula.validity)
         basis = (
@@ -127,3 +131,11 @@ class HardeningTubeLaw:
     def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
         """Factor on the capacity at a rotation rate [rad/s]."""
         return self.formula.rate_factor(rotation_rate)
+
+
+def _with_curve(material: Material) -> Material:
+    """The metal with a curve that rises to its flow stress where it has no curve: one number is used of it."""
+    if material.hardening is not None or material.flow_stress <= material.yield_stress:
+        return material
+    curve = HardeningTable((0.0, FOLD_STRAIN), (material.yield_stress, material.flow_stress))
+    return replace(material, hardening=curve, given_flow_stress=None)

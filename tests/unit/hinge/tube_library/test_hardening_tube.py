@@ -13,6 +13,7 @@ from crumple.hinge.tube_library.table import tube_table
 from crumple.material import Material
 from crumple.material.hardening.perfectly_plastic import PerfectlyPlastic
 from crumple.material.hardening.swift import Swift
+from crumple.material.hardening.table import HardeningTable
 from crumple.material.hardening.voce import Voce
 from crumple.section import CircularTube, RectangularTube
 from crumple.section.shapes.written import written_section
@@ -125,3 +126,35 @@ def test_its_range_names_the_band_of_the_library_once():
     law = build_law("hardening_tube", TUBE, STEEL)
     assert law.validity.basis.count("against the library of tubes") == 1
     assert "not checked" not in law.source.trust.value
+
+
+@pytest.mark.parametrize("fold", ["free", "clamped"])
+def test_a_flow_stress_counts_beyond_the_library_as_within_it(fold):
+    flow = replace(YIELD, given_flow_stress=420e6)
+    inside, beyond = (CircularTube(0.025, wall) for wall in (0.00206, 0.0021))
+    names = [automatic_type(tube, flow, "y", fold) for tube in (inside, beyond)]
+    assert names == ["clamped_tube" if fold == "clamped" else "library", "hardening_tube"]
+    # a wall that is 2 % thicker takes more work, within the few percent by which formula and table differ
+    work = [
+        np.trapezoid(moments(name, tube, flow)[AT < 0.4], AT[AT < 0.4])
+        for name, tube in zip(names, (inside, beyond), strict=True)
+    ]
+    assert work[1] == pytest.approx(1.02 * work[0], rel=0.07)
+    # without a flow stress it is the formula, which the flow stress raises
+    assert automatic_type(beyond, YIELD, "y", fold) == "circular"
+    plain = moments("circular", beyond, YIELD)
+    assert np.all(moments("hardening_tube", beyond, flow)[1:] > plain[1:])
+
+
+def test_a_flow_stress_is_the_stress_of_a_curve_that_reaches_it_in_a_fold():
+    flow = replace(YIELD, given_flow_stress=420e6)
+    curve = replace(YIELD, hardening=HardeningTable((0.0, 0.1), (350e6, 420e6)))
+    np.testing.assert_array_equal(
+        moments("hardening_tube", ROUND, flow), moments("hardening_tube", ROUND, curve)
+    )
+
+
+def test_where_nothing_is_known_of_the_fold_a_flow_stress_alone_has_the_formula():
+    flow = replace(YIELD, given_flow_stress=420e6)
+    assert automatic_type(TUBE, flow, "y", None) == "kecman"
+    assert automatic_type(TUBE, flow, "y", "clamped") == "kecman"
