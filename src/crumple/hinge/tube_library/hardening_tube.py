@@ -134,7 +134,7 @@ class HardeningTubeLaw:
 
 
 def _with_curve(material: Material) -> Material:
-    """The metal with a curve that rises to its flow stress where it has no curve: one number is used of it."""
+    """The metal with a curve that rises to its flow stress where it has none: one number is used of it."""
     if material.hardening is not None or material.flow_stress <= material.yield_stress:
         return material
     curve = HardeningTable((0.0, FOLD_STRAIN), (material.yield_stress, material.flow_stress))
