@@ -20,7 +20,7 @@ from crumple.structure.structure import Structure
 from crumple.text.names import listed
 
 ASIDE = math.radians(5.0)
-"""Direction of the deflection of an elastic member off that of its load [rad], above which a caution is given."""
+"""Direction of a deflection off that of the load [rad], above which a caution is given."""
 
 
 def oblique_sections(structure: Structure) -> Iterator[Unusual]:
@@ -47,9 +47,9 @@ def oblique_sections(structure: Structure) -> Iterator[Unusual]:
             both = found.second_moment_y * found.second_moment_z
             softer, angle = both / (both - found.product_moment**2), math.degrees(found.principal_angle)
             text = (
-                f"The axes y and z of section {section} ({listed(members)}) are not its principal axes, which "
-                f"lie at {angle:.3g} deg to them. Hinges and elastic members bend about y and z apart here; "
-                f"such a member bends {softer:.3g} times as far, and up to {math.degrees(aside):.3g} deg aside "
-                "of its load. Shells have both."
+                f"The axes y and z of section {section} ({listed(members)}) are not its principal axes, "
+                f"which lie at {angle:.3g} deg to them. Hinges and elastic members bend about y and z apart here; "
+                f"such a member bends {softer:.3g} times as far, and up to {math.degrees(aside):.3g} deg "
+                "aside of its load. Shells have both."
             )
             yield Unusual(f"section {section}", aside, ASIDE, "rad", text, "oblique_section")

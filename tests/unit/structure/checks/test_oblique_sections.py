@@ -1,4 +1,4 @@
-"""Caution about sections that bend about axes which are not principal; none for others, examples and the suite."""
+"""Caution about sections that bend about axes which are not principal; none for others and examples."""
 
 import math
 from pathlib import Path
