@@ -45,7 +45,7 @@ from crumple.multibody.run import (
 from crumple.multibody.spatial.solver import SpatialSolver
 from crumple.numeric.arrays import Floats
 from crumple.result import Provenance, Result, missing_pictures, sentences
-from crumple.structure import Structure, any_automatic, law_uses, placed_hinges, with_elastic_members
+from crumple.structure import Structure, any_automatic, law_use_about, placed_hinges, with_elastic_members
 
 FORK = 0.05
 """Difference of the rotations of two runs over the largest one that accuracy alone hardly explains."""
@@ -269,7 +269,8 @@ def _result(
         *gravity_channels(structure, solved.poses),
     ]
     channels += [*solved.further, *wanted]
-    hinges = with_crush(structure, solved.hinges, summaries(solved.hinges, errors, law_uses(structure)))
+    uses = law_use_about(structure)
+    hinges = with_crush(structure, solved.hinges, summaries(solved.hinges, errors, uses))
     openings, threshold = collapse_log(solved.hinges, solved.time)
     return Result(
         status=status,

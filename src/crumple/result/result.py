@@ -78,6 +78,9 @@ class HingeSummary:
         Title, citation with trust, and form of the law.
     validity_rotation, validity_basis
         Range [rad] in which the law is backed, and by what.
+    law_rotation
+        Largest plastic rotation [rad] by which the law is judged, of a hinge about several axes that about
+        the axis of this law; None where it was measured.
     envelope
         Capacity used: dict with "rotation" [rad], "positive" and "negative" [N m] arrays.
     position
@@ -97,6 +100,7 @@ class HingeSummary:
     form: str = ""
     validity_rotation: float | None = None
     validity_basis: str = ""
+    law_rotation: float | None = None
     envelope: Mapping[str, Floats] = field(default_factory=dict)
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     fracture_time: float | None = None

@@ -14,7 +14,7 @@ from crumple.result.scatter import Scatter
 
 _HINGE_KEYS = (
     "rotation_max", "rotation_final", "time_of_rest", "energy", "moment_max", "rotation_error",
-    "law", "source", "form", "validity_rotation", "validity_basis", "position",
+    "law", "source", "form", "validity_rotation", "validity_basis", "law_rotation", "position",
     "fracture_time", "fracture_moment",
 )  # fmt: skip
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
+from crumple.hinge import HingeRecord
 from crumple.hinge.law_use import LawUse
 from crumple.multibody.answer.dents import DentHistory, WallMotion
 from crumple.multibody.answer.poses import Poses, piece_at
@@ -15,7 +16,8 @@ from crumple.numeric.arrays import Floats
 from crumple.result import Channel, HingeSummary
 from crumple.result.channels import channel, channels_along
 from crumple.result.clearance import clearance
-from crumple.structure import Outputs, Structure
+from crumple.section import Axis
+from crumple.structure import Outputs, PlacedHinge, Structure
 from crumple.structure.bending import bending_axis
 
 
@@ -146,7 +148,9 @@ def gravity_channels(structure: Structure, poses: Poses) -> Iterator[Channel]:
 
 
 def summaries(
-    hinges: Iterable[HingeHistory], errors: Floats | None = None, uses: Mapping[str, LawUse] | None = None
+    hinges: Iterable[HingeHistory],
+    errors: Floats | None = None,
+    use: Callable[[str, Axis], LawUse | None] | None = None,
 ) -> dict[str, HingeSummary]:
     """Summaries of all hinges.
 
@@ -156,13 +160,15 @@ def summaries(
         Histories.
     errors
         Estimated error of each largest rotation [rad], (hinges,), or None.
-    uses
-        Where the laws come from, by hinge.
+    use
+        Says where the law of a hinge about an axis comes from.
     """
     found = {}
     for k, history in enumerate(hinges):
         hinge = history.hinge
-        law, envelopes = hinge.law, (hinge.record.positive, hinge.record.negative)
+        axis, law, bent = history.judged_by()
+        record = _record_about(hinge, axis)
+        envelopes = record.positive, record.negative
         rotation = np.union1d(envelopes[0].rotation, envelopes[1].rotation)
         positive, negative = (np.interp(rotation, e.rotation, e.moment) for e in envelopes)
         found[hinge.name] = HingeSummary(
@@ -181,6 +187,13 @@ def summaries(
             validity_basis=law.validity.basis,
             envelope={"rotation": rotation, "positive": positive, "negative": negative},
             position=tuple(float(value) for value in hinge.position),  # type: ignore[arg-type]
-            law_use=(uses or {}).get(hinge.name),
+            law_rotation=bent,
+            law_use=None if use is None else use(hinge.name, axis),
         )
     return found
+
+
+def _record_about(hinge: PlacedHinge, axis: Axis) -> HingeRecord:
+    """Curves of a hinge about one of its bending axes."""
+    components = () if hinge.spatial is None else hinge.spatial.components
+    return next((one.record for one in components if one.freedom.label == axis), hinge.record)

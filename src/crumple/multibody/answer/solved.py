@@ -9,13 +9,19 @@ from typing import Protocol
 import numpy as np
 
 from crumple._core.outcome import Outcome
+from crumple.hinge import Freedom, HingeLaw
 from crumple.multibody.answer.dents import DentHistory
 from crumple.multibody.answer.poses import Poses
 from crumple.numeric.arrays import Floats
 from crumple.result import Channel, CrumpledEnd, StageSummary
+from crumple.section import AXES, Axis
 from crumple.structure import PlacedHinge
 
 Poll = Callable[[float], bool]
+
+YIELDED = 1e-3
+"""Plastic rotation [rad] up to which a law is not judged: 0.06 deg, in which no fold begins, and much more
+than a locked hinge creeps."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +58,38 @@ class HingeHistory:
     def values(self, name: str) -> Floats:
         """One of its columns, (n,)."""
         return self.columns[name]
+
+    def bent_by_law(self) -> list[tuple[Axis, HingeLaw, float]]:
+        """Axes about which it yielded, with their laws and the largest plastic bending there [rad].
+
+        The curve of a law is one over the plastic rotation: what a hinge bends elastically is no part of it.
+        Of axes with one law, as a round tube has, the rotation is the length of their vector.
+        """
+        hinge, whole = self.hinge, self.values("plastic_rotation")
+        if hinge.spatial is None:
+            bent = {hinge.axis: whole}
+        else:
+            axes: list[Axis] = [axis for axis in AXES if Freedom[axis.upper()] in hinge.spatial.freedoms]
+            # without others beside it a component has no name of its own
+            bent = {axis: self.columns.get(f"plastic_rotation.{axis}", whole) for axis in axes}
+        by_law: dict[HingeLaw, dict[Axis, Floats]] = {}
+        for axis, values in bent.items():
+            by_law.setdefault(hinge.laws.get(axis, hinge.law), {})[axis] = values
+        largest = [
+            (next(iter(parts)), law, float(np.linalg.norm(list(parts.values()), axis=0).max(initial=0.0)))
+            for law, parts in by_law.items()
+        ]
+        return [one for one in largest if one[2] > YIELDED]
+
+    def judged_by(self) -> tuple[Axis, HingeLaw, float]:
+        """Of `bent_by_law` the one by which the hinge is judged.
+
+        One beyond its range, else that of the largest rotation; if nothing yielded, its first axis and 0.
+        """
+        bent = self.bent_by_law()
+        beyond = [one for one in bent if one[2] > one[1].validity.rotation_max]
+        at_rest = (self.hinge.axis, self.hinge.law, 0.0)
+        return max(beyond or bent, key=lambda one: one[2], default=at_rest)
 
 
 @dataclass(frozen=True)

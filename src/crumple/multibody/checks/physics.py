@@ -16,7 +16,7 @@ from crumple.hinge import Freedom
 from crumple.multibody.answer.crush import crush_of
 from crumple.multibody.answer.forces import on_second
 from crumple.multibody.answer.poses import SpatialPoses
-from crumple.multibody.answer.solved import CrushedContact, HingeHistory, Solved
+from crumple.multibody.answer.solved import CrushedContact, Solved
 from crumple.multibody.bodies.rigid import lump_mass, piece_mass
 from crumple.multibody.checks.crushing import buckling_cautions, closed_together, crushing_cautions
 from crumple.multibody.checks.folded_over import folded_over
@@ -287,22 +287,20 @@ def _lost_in_impacts(solved: Solved) -> float:
 
 def jammed_folds(solved: Solved) -> Iterator[Caution]:
     """Hinges with rotations beyond that at which the walls of the fold touch."""
-    beyond: dict[float, list[HingeHistory]] = {}
+    beyond: dict[float, dict[str, float]] = {}
     for history in solved.hinges:
-        jams = history.hinge.law.jamming_angle
-        if jams is not None and history.rotation_max > jams:
-            beyond.setdefault(jams, []).append(history)
-    for jams, histories in beyond.items():
-        turned_by = _span([math.degrees(history.rotation_max) for history in histories])
-        names = named("Hinge", [history.hinge.name for history in histories])
+        for _, law, bent in history.bent_by_law():
+            if law.jamming_angle is not None and bent > law.jamming_angle:
+                beyond.setdefault(law.jamming_angle, {})[history.hinge.name] = bent
+    for jams, hinges in beyond.items():
+        turned_by = _span([math.degrees(bent) for bent in hinges.values()])
+        names = named("Hinge", list(hinges))
         text = (
             f"{names} turned by {turned_by} deg; the walls jam at {math.degrees(jams):.1f} deg, and what "
             "follows is an estimate."
         )
-        for history in histories:
-            yield Caution(
-                "beyond_jamming", history.rotation_max, jams, "rad", f"hinge {history.hinge.name}", text
-            )
+        for name, bent in hinges.items():
+            yield Caution("beyond_jamming", bent, jams, "rad", f"hinge {name}", text)
 
 
 def closed_crush_zones(structure: Structure, solved: Solved) -> Iterator[Caution]:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from crumple.hinge import Form, Freedom, SofteningVariable
-from crumple.multibody.answer.solved import Solved, Solver
+from crumple.multibody.answer.solved import HingeHistory, Solved, Solver
 from crumple.multibody.bodies.crumpling_ends import crumpling_ends
 from crumple.multibody.bodies.linkage import link
 from crumple.multibody.bodies.mobility import free_parts
@@ -166,15 +166,14 @@ def warnings(
 ) -> tuple[str, ...]:
     """Sentences to be read before the result is used; `notes` if motion is lost at the start."""
     found: list[str] = []
-    placed = [history.hinge for history in solved.hinges]
     largest = max((summary.rotation_max for summary in hinges.values()), default=0.0)
-    by_text: dict[str, list[str]] = {}
-    for hinge in placed:
-        for text in _of_hinge(structure, hinge, hinges[hinge.name]):
-            by_text.setdefault(text, []).append(hinge.name)
-    for text, names in by_text.items():
-        turned = _span([math.degrees(hinges[name].rotation_max) for name in names], 3)
-        found.append(f"{named('Hinge', names)}: {text.format(turned=turned)}")
+    by_text: dict[str, dict[str, float]] = {}
+    for history in solved.hinges:
+        for text, turned in _of_hinge(structure, history):
+            by_text.setdefault(text, {})[history.hinge.name] = math.degrees(turned)
+    for text, by_name in by_text.items():
+        span = _span(list(by_name.values()), 3)
+        found.append(f"{named('Hinge', list(by_name))}: {text.format(turned=span)}")
     found += broken_warnings(solved.hinges)
     found += overlap_warnings(structure)
     found += held_part_warnings(structure, solved)
@@ -232,26 +231,39 @@ def _bends_both_ways(hinge: PlacedHinge) -> bool:
     return hinge.spatial is not None and {Freedom.Y, Freedom.Z} <= set(hinge.spatial.freedoms)
 
 
-def _of_hinge(structure: Structure, hinge: PlacedHinge, summary: HingeSummary) -> list[str]:
-    """Sentences about one hinge; those of many hinges are equal but for a field for the rotations."""
-    law = hinge.law
-    found = [text.replace("{", "{{").replace("}", "}}") for text in law.validity.warnings]
-    turned = "turned by {turned} deg"
-    jammed = law.jamming_angle is not None and summary.rotation_max > law.jamming_angle
-    # a closed fold has a caution of its own
-    if not jammed and summary.rotation_max > law.validity.rotation_max:
-        valid = math.degrees(law.validity.rotation_max)
-        basis = law.validity.basis.replace("{", "{{").replace("}", "}}")
-        found.append(f"{turned}; the law is valid up to {valid:.1f} deg only ({basis})")
+def _of_hinge(structure: Structure, history: HingeHistory) -> Iterator[tuple[str, float]]:
+    """Sentences about one hinge, with its plastic rotation [rad] for a field that they may have.
+
+    Those of many hinges are equal but for it.
+    """
+    hinge = history.hinge
+    bent = history.bent_by_law()
+    # what its law says of section and metal holds for a hinge at rest, too
+    for law in dict.fromkeys(law for _, law, _ in bent) or (hinge.law,):
+        yield from ((_literal(text), 0.0) for text in law.validity.warnings)
+    for _, law, turned in bent:
+        jammed = law.jamming_angle is not None and turned > law.jamming_angle
+        # a closed fold has a caution of its own
+        if not jammed and turned > law.validity.rotation_max:
+            valid, basis = math.degrees(law.validity.rotation_max), _literal(law.validity.basis)
+            yield (
+                f"turned by {{turned}} deg; the law is valid up to {valid:.1f} deg only ({basis})",
+                turned,
+            )
     normal = structure.normal_of(hinge.member)
     if normal is not None and not _bends_both_ways(hinge):
         off = math.degrees(math.acos(min(1.0, abs(float(hinge.direction @ np.asarray(normal))))))
         if off > OFF_AXIS:
-            found.append(
+            yield (
                 f"turns about the section's {hinge.axis} axis, {off:.3g} deg off the normal of the plane of "
-                "bending; what bends it across is carried rigidly: set up, roll or axis of the member"
+                "bending; what bends it across is carried rigidly: set up, roll or axis of the member",
+                0.0,
             )
-    return found
+
+
+def _literal(text: str) -> str:
+    """Text that `str.format` leaves as it is."""
+    return text.replace("{", "{{").replace("}", "}}")
 
 
 def inaccurate(hinges: dict[str, HingeSummary], largest: float) -> list[str]:

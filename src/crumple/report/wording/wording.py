@@ -88,10 +88,16 @@ def outside_range(result: Result, name: str) -> str:
     """One sentence if a hinge rotated beyond the range of validity of its law; else empty."""
     hinge = result.hinges[name]
     limit = hinge.validity_rotation
-    if limit is None or not hinge.rotation_max > limit:
+    reached = _judged_rotation(hinge)
+    if limit is None or not reached > limit:
         return ""
-    turned, valid = angle(hinge.rotation_max), angle(limit)
+    turned, valid = angle(reached), angle(limit)
     return f"Hinge {name} turned {turned}, beyond the range of validity of its law, {valid}."
+
+
+def _judged_rotation(hinge: HingeSummary) -> float:
+    """Rotation by which the law of a hinge is judged [rad]; earlier versions stored the whole one."""
+    return hinge.rotation_max if hinge.law_rotation is None else hinge.law_rotation
 
 
 def _balance(result: Result, bound: float | None) -> str:
@@ -251,7 +257,7 @@ def law_table(result: Result, file: str = INPUT) -> Table:
         groups.setdefault((law, use, hinge.source, hinge.validity_basis, _range(hinge)), []).append(name)
     rows = []
     for (law, use, source, basis, limit), names in groups.items():
-        reached = f"{degrees(max(result.hinges[name].rotation_max for name in names))}°"
+        reached = f"{degrees(max(_judged_rotation(result.hinges[name]) for name in names))}°"
         inside = "no" if any(outside_range(result, name) for name in names) else "yes"
         inside = inside if limit else "—"
         rows.append((", ".join(names), law, use, source, basis, limit or "—", reached, inside))

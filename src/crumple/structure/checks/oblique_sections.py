@@ -48,8 +48,8 @@ def oblique_sections(structure: Structure) -> Iterator[Unusual]:
             softer, angle = both / (both - found.product_moment**2), math.degrees(found.principal_angle)
             text = (
                 f"The axes y and z of section {section} ({listed(members)}) are not its principal axes, "
-                f"which lie at {angle:.3g} deg to them. Hinges and elastic members bend about y and z apart here; "
-                f"such a member bends {softer:.3g} times as far, and up to {math.degrees(aside):.3g} deg "
-                "aside of its load. Shells have both."
+                f"which lie at {angle:.3g} deg to them. Hinges and elastic members bend about y and z apart "
+                f"here; such a member bends {softer:.3g} times as far, and up to "
+                f"{math.degrees(aside):.3g} deg aside of its load. Shells have both."
             )
             yield Unusual(f"section {section}", aside, ASIDE, "rad", text, "oblique_section")

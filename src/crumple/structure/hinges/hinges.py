@@ -213,6 +213,7 @@ def _placed(structure: StructureParts, place: HingePlace, shares: HingeShares) -
         record=record,
         spatial=spatial_record_of(structure, place, shares),
         axes=axes,
+        laws={axis: law_of(structure, about_axis(place, axis)) for axis in place.keys.bending or ()},
     )
 
 

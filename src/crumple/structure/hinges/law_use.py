@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TypeVar
 
@@ -16,6 +16,7 @@ from crumple.hinge.law_use import INPUT, LawUse, Origin
 from crumple.hinge.measured.library import place_of
 from crumple.hinge.measured.place_hash import LENGTH, content_hash
 from crumple.hinge.measured.stored import StoredLaw
+from crumple.section import Axis
 from crumple.section.shapes.rectangular_tube import RectangularTube
 from crumple.structure.hinges.corner_laws import corner_laws, corner_name
 from crumple.structure.hinges.corners import corners
@@ -48,6 +49,22 @@ def _law_uses(structure: StructureParts) -> dict[str, LawUse]:
         hinge.name: law_use(structure, places[hinge.name], hinge.law, hinge.record)
         for hinge in plastic_hinges(structure)
     }
+
+
+def law_use_about(structure: StructureParts) -> Callable[[str, Axis], LawUse]:
+    """Gives the origin of the law of a plastic hinge about one of its bending axes."""
+    first = law_uses(structure)
+    hinges = {hinge.name: hinge for hinge in plastic_hinges(structure)}
+    places = {place.name: place for place in hinge_places(structure)}
+
+    def use(name: str, axis: Axis) -> LawUse:
+        hinge = hinges[name]
+        if axis == hinge.axis or hinge.spatial is None:
+            return first[name]
+        record = next(one.record for one in hinge.spatial.components if one.freedom.label == axis)
+        return law_use(structure, about_axis(places[name], axis), hinge.laws[axis], record)
+
+    return use
 
 
 def used_texts(structure: StructureParts) -> tuple[str, ...]:

@@ -10,6 +10,7 @@ import pytest
 
 from crumple.multibody import Run, solve_multibody
 from crumple.multibody.checks.trust import inaccurate
+from crumple.report.wording.wording import outside_range
 from crumple.result import Result
 from crumple.structure import Structure
 
@@ -70,6 +71,66 @@ def test_rotation_beyond_the_range_and_jamming_are_distinguished() -> None:
     assert about(thrown(17.8), "valid up to 42.0 deg only")
     (text,) = about(thrown(24.0), "jam at 53.1 deg")
     assert text.startswith("Hinge root turned by")
+
+
+def post(z_law: dict[str, Any], impulse: float, along: int = 1, **hinge: Any) -> Result:
+    """A cantilever with hinges about y and z, struck along y, so that it bends about z, or along z."""
+    short = {"type": "table", "rotation": (0.0, 0.02), "moment": (900.0, 900.0), "rate": "off"}
+    hinge = {"name": "foot", "at": "root", "axes": ("y", "z"), "law": short, "laws": {"z": z_law}} | hinge
+    structure = Structure(
+        materials={"steel": STEEL},
+        sections={"tube": TUBE},
+        nodes={"root": (0.0, 0.0, 0.0), "tip": (1.0, 0.0, 0.0)},
+        members={
+            "tube": {
+                "nodes": ("root", "tip"),
+                "section": "tube",
+                "material": "steel",
+                "elastic": True,
+                "hinges": [hinge],
+            }
+        },
+        supports={"clamp": {"node": "root", "fix": "all"}},
+        impulses=[{"node": "tip", "impulse": [impulse * (i == along) for i in range(3)]}],
+    )
+    return solve_multibody(structure, Run(duration=0.05, every=1e-3))
+
+
+def test_a_hinge_is_judged_by_the_laws_of_the_axes_about_which_it_yields() -> None:
+    long = {"type": "table", "rotation": (0.0, 2.0), "moment": (1500.0, 1500.0), "rate": "off"}
+    result = post(long, 60.0)
+    summary = result.hinges["foot"]
+    assert summary.law_rotation is not None
+    assert 0.03 < summary.law_rotation < summary.rotation_max
+    assert summary.validity_rotation == pytest.approx(2.0)
+    assert summary.envelope["positive"][0] == pytest.approx(1500.0)
+    assert summary.law_use is not None
+    assert not about(result, "valid up to")
+    assert outside_range(result, "foot") == ""
+    short = long | {"rotation": (0.0, 0.01)}
+    (text,) = about(post(short, 60.0), "valid up to")
+    assert f"turned by {math.degrees(summary.law_rotation):.3g} deg; the law is valid up to 0.6 deg" in text
+
+
+def test_elastic_rotation_is_outside_of_no_range() -> None:
+    """The range of a law is one of plastic rotation: an estimate has none."""
+    estimate = {"type": "estimate", "rate": "off"}
+    result = post(estimate, 2.0, law=estimate)
+    assert result.hinges["foot"].rotation_max > 1e-3
+    assert result.hinges["foot"].law_rotation == 0.0
+    assert not about(result, "valid up to")
+    assert outside_range(result, "foot") == ""
+
+
+def test_folds_are_closed_about_the_axis_about_which_they_yield() -> None:
+    """The walls jam at 25.8 deg about z, the first axis, and at 53.1 deg about y."""
+    kecman = {"type": "kecman"}
+    result = post(kecman, 40.0, law=kecman, axes=("z", "y"), along=2)
+    assert math.radians(26.0) < (result.hinges["foot"].law_rotation or 0.0) < math.radians(53.0)
+    assert not [caution for caution in result.cautions if caution.code == "beyond_jamming"]
+    result = post(kecman, 80.0, law=kecman, axes=("z", "y"), along=1)
+    (jammed,) = [caution for caution in result.cautions if caution.code == "beyond_jamming"]
+    assert math.degrees(jammed.limit) == pytest.approx(25.8, abs=0.05)
 
 
 def test_a_warning_of_several_hinges_is_given_once() -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -41,6 +42,8 @@ class PlacedHinge:
     axes
         Its x, y and z at the start as rows, (3, 3), of a hinge that has the axes of a corner; None: those of
         its member.
+    laws
+        Laws about its bending axes where there are several, by axis; empty: `law` alone.
     plastic
         False of an elastic joint: a point of a member that bends elastically alone.
     """
@@ -56,6 +59,7 @@ class PlacedHinge:
     record: HingeRecord
     spatial: SpatialHingeRecord | None = None
     axes: Floats | None = None
+    laws: Mapping[Axis, HingeLaw] = field(default_factory=dict)
     plastic: bool = True
 
 
