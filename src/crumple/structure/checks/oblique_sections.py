@@ -16,14 +16,14 @@ from collections.abc import Iterator
 from crumple.section.walled import WalledSection
 from crumple.structure.checks.unusual import Unusual
 from crumple.structure.hinges.hinges import plastic_hinges
-from crumple.structure.structure import Structure
+from crumple.structure.parts import StructureParts
 from crumple.text.names import listed
 
 ASIDE = math.radians(5.0)
 """Direction of a deflection off that of the load [rad], above which a caution is given."""
 
 
-def oblique_sections(structure: Structure) -> Iterator[Unusual]:
+def oblique_sections(structure: StructureParts) -> Iterator[Unusual]:
     """One caution for each section with such axes, of members that bend or fold.
 
     Parameters
