@@ -29,7 +29,6 @@ from crumple.numeric.rotation import turned
 from crumple.result import Caution
 from crumple.structure import Structure
 from crumple.structure.checks.doubtful import double_members
-from crumple.structure.checks.oblique_sections import oblique_sections
 from crumple.structure.hinges.lengthening.nodes_met import TOGETHER, supports_met
 from crumple.structure.hinges.spatial_hinges import interaction_of
 from crumple.structure.keys.obstacles import gap
@@ -87,7 +86,6 @@ def physics_cautions(structure: Structure, solved: Solved, *, slow: Collection[s
         *(buckling_cautions(structure, solved) if slow else ()),
         *struck_cautions(structure, solved),
         *pressed_beyond(structure, solved, slow),
-        *(Caution(o.code, o.value, o.limit, o.unit, o.place, o.text) for o in oblique_sections(structure)),
         *overloaded_sections(structure, solved),
         *torques_without_twist(structure, solved),
         *fast_nodes(structure, solved, total),
