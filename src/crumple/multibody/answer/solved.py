@@ -20,8 +20,8 @@ from crumple.structure import PlacedHinge
 Poll = Callable[[float], bool]
 
 YIELDED = 1e-3
-"""Plastic rotation [rad] up to which a law is not judged: 0.06 deg, in which no fold begins, and much more than
-a locked hinge creeps."""
+"""Plastic rotation [rad] up to which a law is not judged: 0.06 deg, in which no fold begins, and much more
+than a locked hinge creeps."""
 
 
 @dataclass(frozen=True, eq=False)
