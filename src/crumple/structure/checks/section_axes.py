@@ -2,7 +2,8 @@
 
 Nothing is refused for them.
 
-- Oblique axes: the product of inertia I_yz of a section couples its bending about y and z.  Along a force in z
+- Oblique axes: the product of inertia I_yz of a section couples its bending about y and z.  Along a force
+  in z at the tip of a cantilever
 
       w = F L^3/(3 E I_y) * k,    v = w I_yz/I_z,    k = I_y I_z/(I_y I_z - I_yz^2),
 
@@ -28,9 +29,9 @@ from crumple.structure.struck_places import struck_places
 from crumple.text.names import listed
 
 OBLIQUE = 0.05
-"""|I_yz|/sqrt(I_y I_z) from which a section is oblique [-]: the motion aside that the model lacks is 5 % of the other
-one if I_y = I_z, 10 % if I_y = 4 I_z, as much as bands of laws; the member is 0.25 % softer.  Outlines of tubes, hats
-and channels have 1e-9."""
+"""|I_yz|/sqrt(I_y I_z) from which a section is oblique [-]: the motion aside that the model lacks is 5 % of
+the other one if I_y = I_z, 10 % if I_y = 4 I_z, as much as bands of laws; the member is 0.25 % softer.
+Outlines of tubes, hats and channels have 0 but for rounding."""
 BESIDE = 0.1
 """Distance of a force from the shear centre over the largest side from which it is beside it."""
 MOST_NAMED = 4
@@ -67,9 +68,9 @@ def _oblique(metal: SectionProperties, section: str, members: list[str]) -> Iter
     softer, aside = 1.0 / (1.0 - share**2), abs(both) / min(about_y, about_z)
     text = (
         f"{_named(members)}: the principal axes of section {section} lie "
-        f"{abs(_nearest(metal.principal_angle)):.3g} deg from y and z. The multibody model bends it about y and "
-        f"z apart; in truth it is {softer:.3g} times as soft about them and moves aside as well, by up to "
-        f"{aside:.2g} of its deflection. Solve with shells."
+        f"{abs(_nearest(metal.principal_angle)):.3g} deg from y and z. The multibody model bends it about y "
+        f"and z apart; in truth it is {softer:.3g} times as soft and moves aside as well, by up to {aside:.2g} "
+        "of its deflection. Solve with shells."
     )
     for name in members:
         yield Unusual(f"member {name}", share, OBLIQUE, "1", text, "oblique_axes")
@@ -93,10 +94,11 @@ def _beside(
     if not beside:
         return
     are = "is" if len(beside) == 1 else "are"
+    most = 1e3 * max(beside.values())
     text = (
-        f"{_named(list(beside))} {are} of open section and loaded or struck {1e3 * max(beside.values()):.3g} mm "
-        "beside the shear centre, which twists the walls. The multibody model does not twist open sections: "
-        "solve with shells, or hold the member against twist."
+        f"{_named(list(beside))} {are} of open section and loaded or struck {most:.3g} mm beside the shear "
+        "centre, which twists the walls. The multibody model does not twist open sections: solve with shells, "
+        "or hold the member against twist."
     )
     for name, arm in beside.items():
         yield Unusual(f"member {name}", arm, BESIDE * largest, "m", text, "beside_shear_centre")

@@ -69,7 +69,7 @@ def test_a_rigid_member_without_automatic_hinges_has_none():
 
 
 def test_a_channel_loaded_beside_its_shear_centre_has_a_caution():
-    """Of mid-lines b = 39, h = 78 mm: 3 b^2/(h + 6 b) behind the web, whose centroid is b^2/(2 b + h) before it."""
+    """Of mid-lines b = 39, h = 78: 3 b^2/(h + 6 b) behind the web, the centroid b^2/(2 b + h) before it."""
     b, h = 39e-3, 78e-3
     arm = 3.0 * b**2 / (h + 6.0 * b) + b**2 / (2.0 * b + h)
     (one,) = doubts(bar(CHANNEL))
