@@ -69,7 +69,7 @@ def _oblique(metal: SectionProperties, section: str, members: list[str]) -> Iter
     text = (
         f"{_named(members)}: the principal axes of section {section} lie "
         f"{abs(_nearest(metal.principal_angle)):.3g} deg from y and z. The multibody model bends it about y "
-        f"and z apart; in truth it is {softer:.3g} times as soft and moves aside as well, by up to {aside:.2g} "
+        f"and z apart; in truth it is {softer:.3g} times as soft and moves aside, by up to {aside:.2g} "
         "of its deflection. Solve with shells."
     )
     for name in members:
@@ -97,8 +97,8 @@ def _beside(
     most = 1e3 * max(beside.values())
     text = (
         f"{_named(list(beside))} {are} of open section and loaded or struck {most:.3g} mm beside the shear "
-        "centre, which twists the walls. The multibody model does not twist open sections: solve with shells, "
-        "or hold the member against twist."
+        "centre, which twists the walls. The multibody model does not twist open sections: solve with "
+        "shells, or hold the member against twist."
     )
     for name, arm in beside.items():
         yield Unusual(f"member {name}", arm, BESIDE * largest, "m", text, "beside_shear_centre")
