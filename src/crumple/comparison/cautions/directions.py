@@ -14,7 +14,7 @@ from crumple.result import Result
 from crumple.text.names import listed
 
 APART = math.radians(20.0)
-"""Angle between displacements from which they are different motions: they differ by a third of their length."""
+"""Angle between displacements from which they are different motions: they differ by a third of either."""
 ALIKE = 0.75
 """Smaller length over the larger one from which two displacements count as alike; others differ by length."""
 MATTERS = 0.05
@@ -55,7 +55,7 @@ def direction_sentences(comparison: Comparison) -> Iterator[tuple[str, bool]]:
     what = "Node" if len(found) == 1 else "Nodes"
     yield (
         f"{what} {listed(cases, MOST_NAMED, '; ')} move{'s' if len(found) == 1 else ''} equally far in "
-        "different directions: these are not the same motion, although the lengths of the displacements agree.",
+        "different directions: these are not the same motion, although the displacements agree in length.",
         True,
     )
 
