@@ -136,9 +136,15 @@ def with_modes(
 def with_doubts(result: Result, analysis: Analysis) -> Result:
     """A result with cautions about its input: nothing acts, unusual values, doubtful members."""
     from crumple.result import Caution, sentences  # noqa: PLC0415
+    from crumple.structure import with_elastic_members  # noqa: PLC0415
     from crumple.structure.checks.doubtful import input_doubts  # noqa: PLC0415
+    from crumple.structure.checks.section_axes import section_doubts  # noqa: PLC0415
 
     found = input_doubts(analysis.structure, analysis.duration, analysis.stages)
+    if result.fidelity == "multibody":
+        found += section_doubts(
+            with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
+        )
     if not found or not result.time.size:
         return result
     own = [Caution(one.code, one.value, one.limit, one.unit, one.place, one.text) for one in found]

@@ -85,6 +85,7 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
         unheld_notes,
     )
     from crumple.structure import with_elastic_members
+    from crumple.structure.checks.section_axes import section_doubts
 
     structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
     linkage = link(structure)
@@ -92,6 +93,7 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
     stuck = stuck_note(stuck_drives(analysis.structure, linkage))
     yield from filter(None, (*notes(linkage), infinitesimal(linkage), stuck, *loose))
     yield from (f"Caution: {caution.text}" for caution in struck_cautions(structure))
+    yield from (f"Caution: {text}" for text in dict.fromkeys(one.text for one in section_doubts(structure)))
 
 
 def _shell_notes(analysis: Analysis) -> Iterator[str]:

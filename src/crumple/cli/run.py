@@ -231,6 +231,7 @@ def _show(result: Result, folder: Path, source: LoadedInput) -> None:
     from rich.console import Console
     from rich.text import Text
 
+    from crumple.report.wording.key_figures import between_hinges
     from crumple.report.wording.scatter import sentences as sentences_of_scatter
     from crumple.result import sentences
     from crumple.units import format_quantity
@@ -251,6 +252,8 @@ def _show(result: Result, folder: Path, source: LoadedInput) -> None:
         console.print(
             f"At most {MOST_HINGES} of {len(result.hinges)} hinges, those with the largest absorbed energy"
         )
+    if result.hinges and (rest := between_hinges(result)) > 0.0:
+        console.print(f"Members absorbed {format_quantity(rest, 'J')} more, which no hinge of the table has")
     for line in range_lines(result):
         console.print(Text(line), soft_wrap=True)
     if result.modes is not None and result.modes.unique:

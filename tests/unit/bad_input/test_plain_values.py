@@ -97,3 +97,11 @@ def test_a_law_file_names_what_it_cannot_read(start, line, words):
     changed = "\n".join([*lines[:at], line, *lines[after:]])
     with pytest.raises(InputError, match=words):
         read_law(changed)
+
+
+def test_a_wrong_word_in_fix_says_what_to_write():
+    with pytest.raises(InputError) as caught:
+        loads(GOOD.replace("fix: all", "fix: everything"))
+    (problem,) = caught.value.problems
+    assert problem.what == "'everything' is not a degree of freedom"
+    assert "write 'fix: all' for a clamp" in problem.todo

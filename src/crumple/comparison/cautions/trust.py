@@ -8,6 +8,7 @@ from itertools import combinations, pairwise
 
 import numpy as np
 
+from crumple.comparison.cautions.directions import direction_sentences
 from crumple.comparison.cautions.fold_trust import across_joint, fold_sentences, largest_turn
 from crumple.comparison.cautions.joints import joint_sentences
 from crumple.comparison.cautions.mode_followed import mode_sentences
@@ -60,6 +61,7 @@ def trust_of(comparison: Comparison, structure: Structure) -> Trust:
         *_elastic(comparison, hinges),
         *_bending(comparison),
         *_contact(comparison, bool(structure.obstacles)),
+        *direction_sentences(comparison),
         *joint_sentences(comparison.reference, structure),
         *_reference(comparison.reference),
         *shortfall(comparison),

@@ -6,15 +6,13 @@ import re
 from collections.abc import Sequence
 
 from crumple.numeric.ranking import largest_first
-from crumple.report.wording.key_figures import crush_matters
+from crumple.report.wording.key_figures import ROUNDING, between_hinges, crush_matters
 from crumple.report.wording.wording import Verdict, degrees, percent
 from crumple.result import Result
 from crumple.units import format_quantity
 
 MOST_CAUTIONS = 5
 """Lines of cautions before the pictures; the others are folded."""
-ROUNDING = 1e-3
-"""Part of the absorbed energy that is not worth a word where hinges and dents did not take it."""
 _NUMBER = re.compile(r"[-−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 
@@ -39,18 +37,20 @@ def _absorbed(result: Result) -> str:
         return f"The structure absorbed {total}."
     name = largest_first({name: hinge.energy for name, hinge in result.hinges.items()})[0]
     most = result.hinges[name]
-    if len(result.hinges) == 1 or not most.energy > 0.0:
+    rest = between_hinges(result)
+    if not most.energy > 0.0 or (len(result.hinges) == 1 and not rest > 0.0):
         return f"The structure absorbed {total}."
     folded = sum(hinge.energy for hinge in result.hinges.values()) + sum(dent.energy for dent in result.dents)
-    where = f"{len(result.hinges)} hinges{' and dents' if result.dents else ''}"
-    share = f"{percent(most.energy / folded)} of it in {name}"
-    if abs(absorbed - folded) <= ROUNDING * absorbed:
+    dents = " and dents" if result.dents else ""
+    where, share = f"{len(result.hinges)} hinges{dents}", f"{percent(most.energy / folded)} of it in {name}"
+    if not rest > 0.0 and folded <= (1.0 + ROUNDING) * absorbed:
         return f"The structure absorbed {total} in {where}, {share}."
-    parts = f"{format_quantity(folded, 'J')} in {where} ({share})"
-    if folded > absorbed:
+    one = len(result.hinges) == 1
+    parts = f"{format_quantity(folded, 'J')} in {f'hinge {name}{dents}' if one else f'{where} ({share})'}"
+    if not rest > 0.0:
         return f"The structure absorbed {parts}."
-    rest = format_quantity(absorbed - folded, "J")
-    return f"The structure absorbed {total}: {parts} and {rest} along members that yield between hinges."
+    more = format_quantity(rest, "J")
+    return f"The structure absorbed {total}: {parts} and {more} along members that yield between hinges."
 
 
 def _dented(result: Result) -> str:

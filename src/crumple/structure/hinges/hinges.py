@@ -201,6 +201,8 @@ def _placed(structure: StructureParts, place: HingePlace, shares: HingeShares) -
         # in a plane a corner slips at right angles to its mitre
         corner = corner_of(structure, place.name)
     axes = None if corner is None else corner.axes(structure)
+    spatial = spatial_record_of(structure, place, shares)
+    about = () if spatial is None else place.keys.bending or ()
     return PlacedHinge(
         name=place.name,
         member=place.member,
@@ -211,9 +213,9 @@ def _placed(structure: StructureParts, place: HingePlace, shares: HingeShares) -
         tributary_length=shares.bending.get(place.axis, 0.0),
         law=law,
         record=record,
-        spatial=spatial_record_of(structure, place, shares),
+        spatial=spatial,
         axes=axes,
-        laws={axis: law_of(structure, about_axis(place, axis)) for axis in place.keys.bending or ()},
+        laws={axis: law_of(structure, about_axis(place, axis)) for axis in about},
     )
 
 

@@ -48,6 +48,7 @@ def _known_freedoms(given: object) -> object:
         refuse(
             f"'{shown(wrong[0])}' is not a degree of freedom",
             allowed="all, pin, or a list of x, y, z, rx, ry, rz",
+            todo="write 'fix: all' for a clamp, 'fix: pin' for x, y, z, or a list such as 'fix: [x, z]'",
         )
     return tuple(listed)
 

@@ -19,7 +19,8 @@ class MultibodySettings(Spec):
     """Solver kernel: planar tree, spatial, or the tree wherever it is applicable."""
     members: Literal["auto", "elastic", "rigid"] = "auto"
     """Whether members between their hinges are rigid bars, or bend and yield along their length; auto: they
-    bend if automatic hinges are asked for anywhere, in motions of up to 0.5 s without quasi-static stages."""
+    bend if automatic hinges are asked for anywhere, in motions of up to 0.5 s, quasi-static stages not
+    counted."""
     segments: Annotated[int, Field(ge=2, le=MOST_SEGMENTS)] = SEGMENTS
     """Segments of each elastic member; a member that states its own keeps them."""
     resolved_frequency: PositiveFrequency = 500.0

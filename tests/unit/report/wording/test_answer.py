@@ -38,6 +38,20 @@ def test_total_and_share_of_the_energy_are_of_one_kind():
         assert sentences(tube_result(hinges=hinges))[0] == said
 
 
+def test_energy_beside_the_only_hinge_is_told():
+    """A tube of 783.7 J of which its hinge has 67.9 J: the key figure is of the hinge."""
+    hinge = replace(tube_result().hinges["root"], energy=67.9)
+    result = tube_result(hinges={"root": hinge})
+    assert sentences(result)[0] == (
+        "The structure absorbed 783.7 J: 67.9 J in hinge root and 715.8 J along members that yield between "
+        "hinges."
+    )
+    figures = {name: (value, note) for name, value, note in key_figures(result)}
+    assert figures["Energy absorbed in the hinge"] == ("67.9 J", "715.8 J more along members")
+    whole = {name: (value, note) for name, value, note in key_figures(tube_result())}
+    assert whole["Energy absorbed in the hinge"] == ("783.7 J", "")
+
+
 def test_the_error_is_that_of_the_largest_rotation():
     far = replace(tube_result().hinges["root"], rotation_max=0.5, rotation_error=0.001)
     near = replace(far, rotation_max=0.1, rotation_error=0.01)

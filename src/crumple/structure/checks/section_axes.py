@@ -1,0 +1,130 @@
+"""Sections that move aside or twist where the multibody model does neither; shells do both.
+
+Nothing is refused for them.
+
+- Oblique axes: the product of inertia I_yz of a section couples its bending about y and z.  Along a force
+  in z at the tip of a cantilever
+
+      w = F L^3/(3 E I_y) * k,    v = w I_yz/I_z,    k = I_y I_z/(I_y I_z - I_yz^2),
+
+  but the joints of elastic members and the hinges bend about y and z apart: k = 1 and v = 0.
+- Shear centre: a force beside it twists the member.  Hinges of open sections do not twist, since the plastic
+  torque, which neglects warping, is far too small for them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from crumple.numeric.arrays import Floats
+from crumple.section.properties.properties import SectionProperties
+from crumple.section.wall_section import walls_of
+from crumple.structure.checks.unusual import Unusual
+from crumple.structure.hinges.asked import automatic_of
+from crumple.structure.parts import StructureParts
+from crumple.structure.struck_places import struck_places
+from crumple.text.names import listed
+
+OBLIQUE = 0.05
+"""|I_yz|/sqrt(I_y I_z) from which a section is oblique [-]: the motion aside that the model lacks is 5 % of
+the other one if I_y = I_z, 10 % if I_y = 4 I_z, as much as bands of laws; the member is 0.25 % softer.
+Outlines of tubes, hats and channels have 0 but for rounding."""
+BESIDE = 0.1
+"""Distance of a force from the shear centre over the largest side from which it is beside it."""
+MOST_NAMED = 4
+"""Members that a sentence names."""
+
+
+def section_doubts(structure: StructureParts) -> tuple[Unusual, ...]:
+    """Members that bend aside or twist in shells alone; one sentence for all of a section.
+
+    Parameters
+    ----------
+    structure
+        As the multibody solver has it, with its elastic members.
+    """
+    by_section: dict[str, list[str]] = {}
+    for name, spec in structure.members.items():
+        if spec.rigid is not True and (spec.elastic or automatic_of(structure, name) is not None):
+            by_section.setdefault(spec.section, []).append(name)
+    found: list[Unusual] = []
+    for section, members in by_section.items():
+        walled = walls_of(structure.section_of(members[0]))
+        found += _oblique(walled.properties, section, members)
+        if not walled.skeleton.cells:
+            largest = float(np.ptp(walled.outer_outline(), axis=0).max())
+            found += _beside(structure, np.array(walled.shear_centre), largest, members)
+    return tuple(found)
+
+
+def _oblique(metal: SectionProperties, section: str, members: list[str]) -> Iterator[Unusual]:
+    about_y, about_z, both = metal.second_moment_y, metal.second_moment_z, metal.product_moment
+    share = abs(both) / math.sqrt(about_y * about_z)
+    if share <= OBLIQUE:
+        return
+    softer, aside = 1.0 / (1.0 - share**2), abs(both) / min(about_y, about_z)
+    text = (
+        f"{_named(members)}: the principal axes of section {section} lie "
+        f"{abs(_nearest(metal.principal_angle)):.3g} deg from y and z. The multibody model bends it about y "
+        f"and z apart; in truth it is {softer:.3g} times as soft and moves aside, by up to {aside:.2g} "
+        "of its deflection. Solve with shells."
+    )
+    for name in members:
+        yield Unusual(f"member {name}", share, OBLIQUE, "1", text, "oblique_axes")
+
+
+def _nearest(angle: float) -> float:
+    """Angle [deg] of the principal axis that is nearest to y, from y."""
+    return (math.degrees(angle) + 45.0) % 90.0 - 45.0
+
+
+def _beside(
+    structure: StructureParts, centre: Floats, largest: float, members: list[str]
+) -> Iterator[Unusual]:
+    """Members of an open section that loads or obstacles meet beside its shear centre [m]."""
+    if float(np.linalg.norm(centre)) <= BESIDE * largest:
+        return
+    arms = {
+        name: max((abs(_arm(f, centre)) for f in _across(structure, name)), default=0.0) for name in members
+    }
+    beside = {name: arm for name, arm in arms.items() if arm > BESIDE * largest}
+    if not beside:
+        return
+    are = "is" if len(beside) == 1 else "are"
+    most = 1e3 * max(beside.values())
+    text = (
+        f"{_named(list(beside))} {are} of open section and loaded or struck {most:.3g} mm beside the shear "
+        "centre, which twists the walls. The multibody model does not twist open sections: solve with "
+        "shells, or hold the member against twist."
+    )
+    for name, arm in beside.items():
+        yield Unusual(f"member {name}", arm, BESIDE * largest, "m", text, "beside_shear_centre")
+
+
+def _arm(direction: Floats, centre: Floats) -> float:
+    """Arm about the shear centre [m] of a force through the centroid, for its direction in y and z, (2,)."""
+    return float(centre[0] * direction[1] - centre[1] * direction[0])
+
+
+def _across(structure: StructureParts, member: str) -> Iterator[Floats]:
+    """Directions in y and z, (2,), of what loads or strikes a member; the part along it is left out."""
+    frame, ends = structure.frame_of(member), structure.members[member].nodes
+    forces = [
+        np.array([float(getattr(load.force, axis) is not None) * (axis == other) for other in "xyz"])
+        for load in structure.loads
+        if load.node in ends
+        for axis in "xyz"
+    ]
+    impulses = [np.asarray(one.impulse, float) for one in structure.impulses if one.node in ends]
+    struck = [np.asarray(place.outwards, float) for place in struck_places(structure, member)]
+    for vector in (*forces, *impulses, *struck):
+        size = float(np.linalg.norm(vector))
+        if size > 0.0:
+            yield np.array([frame.y @ vector, frame.z @ vector]) / size
+
+
+def _named(members: list[str]) -> str:
+    return f"Member{'' if len(members) == 1 else 's'} {listed(members, MOST_NAMED)}"
