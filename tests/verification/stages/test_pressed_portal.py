@@ -10,6 +10,9 @@ Kind: closed form.  Source: derived here.
 import pytest
 
 from crumple.analysis import loads, solve
+from crumple.hinge import Freedom
+from crumple.section import half_fold_length
+from crumple.structure import placed_hinges, with_elastic_members
 
 PORTAL = """crumple: 1
 materials:
@@ -45,3 +48,22 @@ def test_both_posts_carry_alike(order, record_figure):
         force = abs(float(result[f"support.{foot}.force.z"][-1]))
         assert shortened > 1e-4
         record_figure(f"force of foot {foot}", force, STIFFNESS * shortened, 0.01, "N", relative=True)
+
+
+def test_a_corner_lengthens_as_one_fold_and_the_rest_of_its_first_member_elsewhere(record_figure):
+    analysis = loads(PORTAL.replace("{MEMBERS}", "{" + ", ".join(MEMBERS) + "}").replace("KIND", "elastic"))
+    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.duration)
+    stiffness = {}
+    for hinge in placed_hinges(structure):
+        parts = () if hinge.spatial is None else hinge.spatial.components
+        axial = [one.record.elastic_stiffness for one in parts if one.freedom is Freedom.AXIAL]
+        if hinge.plastic and axial:
+            (stiffness[hinge.name],) = axial
+    fold = 2.0 * half_fold_length(structure.section_of("p1"))
+    assert {"p1-a", "p2-e", "corner-b"} <= set(stiffness)
+    for name in ("p1-a", "p2-e"):
+        record_figure(
+            f"stiffness along the member of {name}", stiffness[name], STIFFNESS, 1e-9, "N/m", relative=True
+        )
+    expected = STIFFNESS * 1.5 / fold
+    record_figure("stiffness of the corner", stiffness["corner-b"], expected, 1e-9, "N/m", relative=True)

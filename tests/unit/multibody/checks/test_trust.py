@@ -6,13 +6,15 @@ import math
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from crumple.multibody import Run, solve_multibody
+from crumple.multibody.answer.solved import HingeHistory
 from crumple.multibody.checks.trust import inaccurate
 from crumple.report.wording.wording import outside_range
 from crumple.result import Result
-from crumple.structure import Structure
+from crumple.structure import Structure, placed_hinges
 
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "density": 7850.0, "yield_stress": 488e6}
 TUBE = {"type": "rectangular_tube", "width": 0.05, "depth": 0.025, "thickness": 0.00265}
@@ -75,9 +77,15 @@ def test_rotation_beyond_the_range_and_jamming_are_distinguished() -> None:
 
 def post(z_law: dict[str, Any], impulse: float, along: int = 1, **hinge: Any) -> Result:
     """A cantilever with hinges about y and z, struck along y, so that it bends about z, or along z."""
+    structure = post_structure(z_law, impulse, along, **hinge)
+    return solve_multibody(structure, Run(duration=0.05, every=1e-3))
+
+
+def post_structure(z_law: dict[str, Any], impulse: float = 1.0, along: int = 1, **hinge: Any) -> Structure:
+    """Its structure."""
     short = {"type": "table", "rotation": (0.0, 0.02), "moment": (900.0, 900.0), "rate": "off"}
     hinge = {"name": "foot", "at": "root", "axes": ("y", "z"), "law": short, "laws": {"z": z_law}} | hinge
-    structure = Structure(
+    return Structure(
         materials={"steel": STEEL},
         sections={"tube": TUBE},
         nodes={"root": (0.0, 0.0, 0.0), "tip": (1.0, 0.0, 0.0)},
@@ -93,7 +101,6 @@ def post(z_law: dict[str, Any], impulse: float, along: int = 1, **hinge: Any) ->
         supports={"clamp": {"node": "root", "fix": "all"}},
         impulses=[{"node": "tip", "impulse": [impulse * (i == along) for i in range(3)]}],
     )
-    return solve_multibody(structure, Run(duration=0.05, every=1e-3))
 
 
 def test_a_hinge_is_judged_by_the_laws_of_the_axes_about_which_it_yields() -> None:
@@ -110,6 +117,20 @@ def test_a_hinge_is_judged_by_the_laws_of_the_axes_about_which_it_yields() -> No
     short = long | {"rotation": (0.0, 0.01)}
     (text,) = about(post(short, 60.0), "valid up to")
     assert f"turned by {math.degrees(summary.law_rotation):.3g} deg; the law is valid up to 0.6 deg" in text
+
+
+def test_of_two_axes_that_yield_the_one_beyond_its_range_is_judged() -> None:
+    """About y, with the longer range, the hinge yields by more."""
+    short = {"type": "table", "rotation": (0.0, 0.01), "moment": (900.0, 900.0), "rate": "off"}
+    long = short | {"rotation": (0.0, 2.0)}
+    columns = {"plastic_rotation": np.array([0.0, 0.31]), "plastic_rotation.y": np.array([0.0, 0.3])}
+    columns["plastic_rotation.z"] = np.array([0.0, 0.05])
+    structure = post_structure(short, law=long)
+    (hinge,) = [one for one in placed_hinges(structure) if one.plastic]
+    history = HingeHistory(hinge, columns, 0.31, 900.0, None, 300.0)
+    axis, law, turned = history.judged_by()
+    assert (axis, turned) == ("z", pytest.approx(0.05))
+    assert law.validity.rotation_max == pytest.approx(0.01)
 
 
 def test_elastic_rotation_is_outside_of_no_range() -> None:

@@ -81,6 +81,16 @@ def test_a_channel_loaded_beside_its_shear_centre_has_a_caution():
     assert doubts(bar(CHANNEL).replace("force: {z:", "force: {x:")) == ()
 
 
+def test_a_closed_section_carries_the_torque_of_such_a_load():
+    """A box with a fin: its centroid is beside its shear centre, but the cell hardly twists."""
+    points = "[0 mm, 0 mm], [40 mm, 0 mm], [40 mm, 20 mm], [40 mm, 40 mm], [0 mm, 40 mm]"
+    box = f"{{points: [{points}], closed: true, thickness: 1.5 mm}}"
+    fin = "{points: [[40 mm, 20 mm], [100 mm, 20 mm]], thickness: 1.5 mm}"
+    text = bar(f"type: walls, walls: [{box}, {fin}]").replace(", thickness: 2 mm", "")
+    assert abs(loads(text).structure.section_of("bar").shear_centre[0]) > 0.1 * 100e-3
+    assert doubts(text) == ()
+
+
 def test_check_and_results_of_multibody_have_them_and_shells_do_not(tmp_path):
     file = tmp_path / "bar.yaml"
     file.write_text(bar(ANGLE))
