@@ -84,7 +84,8 @@ def pressed_beyond(structure: Structure, solved: Solved, slow: Collection[str]) 
     if not stages:
         return
     force = {channel.name: channel.values for channel in solved.further}
-    still = np.logical_or.reduce([(solved.time >= one.start) & (solved.time <= one.end) for one in stages])
+    # an output at the border of two stages belongs to the first
+    still = np.logical_or.reduce([(solved.time > one.start) & (solved.time <= one.end) for one in stages])
     metals = ((structure.section_of(name), structure.material_of(name)) for name in structure.members)
     limit = sum(interaction_of(section, material).squash_force for section, material in metals)
     for name in structure.obstacles:

@@ -1,11 +1,15 @@
 """A member with hinges of its own that lies in the path of an obstacle, with none of them there."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from tests.support.multibody.frames import LAW, structure
 
 from crumple.analysis import loads, solve
 from crumple.multibody import Run, solve_multibody, struck_cautions
+from crumple.multibody.checks.struck import pressed_beyond
+from crumple.result import Channel, StageSummary
 from crumple.structure import MultibodySettings
 
 POLE = {"type": "cylinder", "point": (0.4, 0.0, 0.11), "axis": (0.0, 1.0, 0.0), "radius": 0.05}
@@ -108,3 +112,15 @@ def test_forces_of_an_impact_have_no_such_bound():
     text = PRESSED.replace("KIND", "rigid").replace("kind: quasi-static", "kind: dynamic")
     result = solve(loads(text.replace("-0.3 m/s", "-3 m/s")), checks=False)
     assert not [one for one in result.cautions if one.code == "pressed_beyond"]
+
+
+def test_the_force_at_the_end_of_an_impact_is_not_that_of_the_slow_stage_after_it():
+    structure = loads(PRESSED.replace("KIND", "rigid")).structure
+    stages = (
+        StageSummary("push", 0.0, 0.01, "after 10 ms"),
+        StageSummary("crush", 0.01, 0.02, "after 10 ms"),
+    )
+    force = [Channel(f"obstacle.press.force.{axis}", "N", np.array([0.0, 9e6, 0.0])) for axis in "xyz"]
+    solved = SimpleNamespace(stages=stages, time=np.array([0.0, 0.01, 0.02]), further=force)
+    assert list(pressed_beyond(structure, solved, ["crush"])) == []
+    assert [one.code for one in pressed_beyond(structure, solved, ["push"])] == ["pressed_beyond"]
