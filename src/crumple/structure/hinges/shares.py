@@ -107,7 +107,7 @@ def member_shares(
     at_nodes = {corner_name(node) for node in member.nodes if node in corner_laws(structure)} if axial else ()
     inside = along(lambda place: place.name in axial and place.name not in at_nodes) if at_nodes else None
     if inside:
-        axial = dict.fromkeys(axial, 2.0 * _fold(structure, name)) | inside
+        axial = dict.fromkeys(axial, _fold(structure, name)) | inside
     # the hinge of a corner has part of the twist of a rigid member; elastic ones twist on their own
     rigid_member = not segments_of(structure, name)
     twist = along(
@@ -121,7 +121,7 @@ def member_shares(
     nearest |= dict.fromkeys(axial, _between_joints(structure, name, rigid) if axial else 0.0)
     twisted = nearest
     if between:
-        twisted = {hinge: min(stretch, 2.0 * _fold(structure, name)) for hinge, stretch in nearest.items()}
+        twisted = {hinge: min(stretch, _fold(structure, name)) for hinge, stretch in nearest.items()}
     return [
         HingeShares(
             {
@@ -139,8 +139,8 @@ def member_shares(
 
 
 def _fold(structure: StructureParts, name: str) -> float:
-    """Half the length of the longest bending fold of a member [m]."""
-    return max(half_fold_length(structure.section_of(name), axis) for axis in AXES)
+    """Length of the longest bending fold of a member [m]."""
+    return 2.0 * max(half_fold_length(structure.section_of(name), axis) for axis in AXES)
 
 
 def _between_joints(structure: StructureParts, name: str, rigid: tuple[tuple[float, float], ...]) -> float:
