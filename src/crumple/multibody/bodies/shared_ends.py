@@ -2,12 +2,15 @@
 
 Pieces of a member on both sides of a hinge, and members that meet rigidly at a node, end in balls about the
 same point, which move as one.  A contact at each would be the same contact again: how the force divides
-between them is not determined, and which of them slides is decided by rounding.  Balls beside the axis of a
-member, of a flat section, part when a hinge turns, but not at an elastic joint, which hardly does.
+between them is not determined, and which of them slides is decided by rounding.  The one that is met must not
+depend on which end of a member the input names first: a ball that turns with one piece rubs otherwise than
+one that turns with the other.  Balls beside the axis of a member, of a flat section, part when a hinge turns,
+but not at an elastic joint, which hardly does.
 """
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 
@@ -30,18 +33,20 @@ def ends_met(
 ) -> tuple[int, ...]:
     """Ends of capsules that an obstacle meets: `FIRST`, `SECOND`, `BOTH` or 0, for each of `touching`.
 
-    Of ends that stay together, by `bodies_together`, the largest counts, of equal ones the first.
+    Of ends that stay together, by `bodies_together`, the largest counts, of equal ones that of the longest
+    capsule, of equally long ones the first.
     """
-    at: dict[Place, list[tuple[float, int, int]]] = defaultdict(list)
+    at: dict[Place, list[tuple[float, float, int, int]]] = defaultdict(list)
     for k, index in enumerate(touching):
         capsule = capsules[index]
+        length = SAME * round(math.dist(capsule.first, capsule.second) / SAME)
         for side, end in ((FIRST, capsule.first), (SECOND, capsule.second)):
-            at[_place(end)].append((-capsule.radius, k, side))
+            at[_place(end)].append((-capsule.radius, -length, k, side))
     met = [0] * len(touching)
     for place, ends in at.items():
         joined = together.get(place, {})
         seen: set[int] = set()
-        for _, k, side in sorted(ends):
+        for _, _, k, side in sorted(ends):
             body = capsules[touching[k]].body
             group = joined.get(body, body)
             if group not in seen:

@@ -117,7 +117,7 @@ def joints_of(
     branches = {tee.branch.member for tee in tees.values()}
     loaded = structure.loaded_nodes
     joints, problems = {}, []
-    for node, meeting in _ends(structure).items():
+    for node, meeting in ends_of(structure).items():
         if node in tees:
             joints[node] = _welded(structure, contours, tees[node])
             continue
@@ -139,13 +139,13 @@ def welded_joints(
     Nodes that are held, loaded or heavy stay rigid.
     """
     loaded = structure.loaded_nodes
-    ends = {node: meeting for node, meeting in _ends(structure).items() if node not in loaded}
+    ends = {node: meeting for node, meeting in ends_of(structure).items() if node not in loaded}
     tees = tees_of(structure, contours, ends, size)
     return tees, with_rows(contours, tees.values(), size)
 
 
-def _ends(structure: Structure) -> dict[str, tuple[End, ...]]:
-    """Ends of members at every node."""
+def ends_of(structure: Structure) -> dict[str, tuple[End, ...]]:
+    """Ends of members by node."""
     ends: dict[str, list[End]] = defaultdict(list)
     for name, member in structure.members.items():
         ends[member.nodes[0]].append(End(name, False))

@@ -14,7 +14,8 @@ from crumple.shell.mesh.bays import Bays, Levels, bays_of, coarse_rings, left_ou
 from crumple.shell.mesh.contour import Contour, contour_of
 from crumple.shell.mesh.cut_ends import CutEnd, cut_ends_of
 from crumple.shell.mesh.imperfection import offsets
-from crumple.shell.mesh.joints import SHEARED_LENGTH, Joint, Kind, joints_of, welded_joints
+from crumple.shell.mesh.joints import SHEARED_LENGTH, Joint, Kind, ends_of, joints_of, welded_joints
+from crumple.shell.mesh.round_rings import with_rings_alike
 from crumple.shell.mesh.stations import Sizes, Zone, stations
 from crumple.shell.mesh.tees import Seam, Tee, branch_contour, seam_of, shared_nodes
 from crumple.structure import Frame, Outputs, ShellSettings, Structure, member_hinge_places
@@ -158,6 +159,7 @@ def mesh_of(structure: Structure, settings: ShellSettings, outputs: Outputs | No
     refuse_sizes(structure, settings)
     size = settings.fine_size or settings.element_size
     contours = {name: contour_of(structure.section_of(name), size) for name in structure.members}
+    contours = with_rings_alike(structure, contours, ends_of(structure))
     tees: dict[str, Tee] = {}
     if settings.t_joints == "welded":
         tees, contours = welded_joints(structure, contours, size)

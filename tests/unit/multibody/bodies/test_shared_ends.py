@@ -92,3 +92,15 @@ def test_pieces_beside_a_fold_part_but_a_plane_meets_one(at, plane, count):
     whole = frame(hinges=(("h", at, {"axes": ("y", "z"), "axial": True}),))
     places, _, _ = met(whole, plane=plane)
     assert places[(round(1e3 * at), 0, 0)] == count
+
+
+@pytest.mark.parametrize("hinge", [0.2, 0.35])
+def test_the_end_of_the_longer_piece_is_met_whichever_end_of_the_member_is_named_first(hinge):
+    line = {"a": (0.0, 0.0, 0.0), "b": (0.5, 0.0, 0.0)}
+    for ab in (member("a", "b", ("h", hinge)), member("b", "a", ("h", 0.5 - hinge))):
+        whole = structure(nodes=line, members={"ab": ab}, sections={"tube": SQUARE}, supports={})
+        _, capsules, ends = met(whole)
+        lengths = [np.linalg.norm(capsule.second - capsule.first) for capsule in capsules]
+        shorter, longer = np.argsort(lengths)
+        assert ends[longer] == BOTH
+        assert ends[shorter] in (FIRST, SECOND)

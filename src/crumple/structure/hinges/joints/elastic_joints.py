@@ -6,6 +6,7 @@ from crumple import hinge
 from crumple.hinge import ConstantLaw, Coupling, Form, HingeComponent, HingeRecord
 from crumple.section import Axis, half_fold_length
 from crumple.structure.hinges.elastic_members import yielding_record
+from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.joints.placed_hinge import PlacedHinge, direction_of
 from crumple.structure.hinges.places import HingePlace
 from crumple.structure.hinges.shares import SAME_PLACE, AxisShares, joint_lengths, joint_twists
@@ -78,8 +79,9 @@ def _joint_record(
 ) -> HingeRecord:
     """Record of a joint at a station that stands for a length [m] of its member.
 
-    One between an end and the fold there does not yield: the hinge stands for the fold of all that lies
-    beyond it. Walls that yielded there without folding would carry its largest moment whatever the rotation.
+    One between an end and the fold there, or in a rigid joint, does not yield: the hinge stands for the fold
+    of all that lies beyond it. Walls that yielded there without folding would carry its largest moment
+    whatever the rotation.
     """
     station, length = place
     if structure.members[member].elastic and not _beyond_a_fold(structure, member, axis, station, own):
@@ -95,7 +97,10 @@ def _joint_record(
 def _beyond_a_fold(
     structure: StructureParts, member: str, axis: Axis, station: float, own: list[PlacedHinge]
 ) -> bool:
-    """Whether a station lies between an end of a member and a hinge that is less than one fold away."""
+    """Whether a station lies in a rigid joint, or between an end and a hinge less than one fold away."""
+    first, second = (joint_reach(structure, member, node) for node in structure.members[member].nodes)
+    if not first < station < structure.frame_of(member).length - second and (first or second):
+        return True
     folds = [hinge.station for hinge in own if _bends_about(hinge, axis)]
     if not folds or min(folds) <= station <= max(folds):
         return False
