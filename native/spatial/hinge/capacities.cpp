@@ -92,6 +92,12 @@ bool rated(const SpatialHinge& hinge) {
 
 namespace {
 
+// Growth of a capacity over its variable from a to b with b: of the mean over it, or of the value at b for the elastic form; 0 if it falls.
+double slope_over(const hinge::Curve& curve, double a, double b, bool at_end, int& hint) {
+    const double further = capacity_over(curve, a, b + smallest_mean, at_end, hint) - capacity_over(curve, a, b, at_end, hint);
+    return std::max(further, 0.0) / smallest_mean;
+}
+
 void mean_capacities(const SpatialHinge& hinge, const SpatialHingeState& s, const double* e, const double* flow, FrozenSpatialHinge& f) {
     const int n = size(hinge);
     const bool at_end = form_of(hinge) == Form::elastic_plastic;
@@ -131,6 +137,9 @@ void mean_capacities(const SpatialHinge& hinge, const SpatialHingeState& s, cons
             const double ahead = capacity_over(curve, from * per_work, to * per_work, at_end, f.hint[k][sense]);
             const double here = held > 0 && !at_end ? curve.at(from * per_work, f.hint[k][sense]) : 0;
             f.component[k].capacity[sense] = law_of(hinge, k).scale * (at_end ? ahead : held * here + (1 - held) * ahead);
+            if (held > 0.5) continue;
+            const double slope = law_of(hinge, k).scale * slope_over(curve, from * per_work, to * per_work, at_end, f.hint[k][sense]);
+            f.slope[k] = std::max(f.slope[k], slope);
         }
         const Component& c = hinge.components[static_cast<size_t>(k)];
         if (c.driver < 0) continue;

@@ -14,6 +14,10 @@ constexpr int most = most_components;
 constexpr double smallest_episode = 1e-2;
 // Flow in a step [rad or m] that is the rounding of an elastic rotation.
 constexpr double no_flow = 1e-15;
+// Share of the capacity from which an elastic hinge takes part in the division of a rotation, in full at its capacity.
+constexpr double divided_from = 0.9;
+// Flow [rad or m] over which the change of a capacity is taken.
+constexpr double small_flow = 1e-6;
 // Rates below this multiple of the ramp's half-width count as rest when the rotation of the hinge's axis is evaluated.
 constexpr double at_rest = 10;
 
@@ -27,6 +31,8 @@ void plastic_rotation(const SpatialHinge& hinge, const SpatialHingeState& s, con
         e[k] = form_of(hinge) == Form::elastic_plastic ? q[k] - c.moment / law_of(hinge, k).stiffness : q[k];
     }
 }
+
+double larger_capacity(const FrozenSpatialHinge& f, int k) { return std::max(f.component[k].capacity[0], f.component[k].capacity[1]); }
 
 // Whether a flow is rounding.
 bool stands_still(const SpatialHinge& hinge, const double* flow) {
@@ -65,7 +71,7 @@ void break_open(const SpatialHinge& hinge, FrozenSpatialHinge& f) {
 double lead_of(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w1) {
     double square0 = 0, square1 = 0, product = 0;
     for (int k = 0; k < size(hinge); k++) {
-        const double c = std::max(f.component[k].capacity[0], f.component[k].capacity[1]);
+        const double c = larger_capacity(f, k);
         square0 += c * c * f.w0[k] * f.w0[k];
         square1 += c * c * w1[k] * w1[k];
         product += c * c * f.w0[k] * w1[k];
@@ -134,6 +140,17 @@ void freeze_separate(const SpatialHinge& hinge, const SpatialHingeState& s, cons
     set_reference(hinge, f);
 }
 
+// Growth of the capacity of a component without coupling with its flow in the sense in which it is loaded; 0 if it falls.
+double slope_alone(const hinge::Hinge& law, const hinge::HingeState& s, const FrozenSpatialHinge& f, int k) {
+    const double sense = s.moment < 0 ? -1 : 1, so_far = sense * std::max(sense * f.h * (f.w0[k] + f.expected[k]) / 2, 0.0);
+    hinge::FrozenHinge here, further;
+    int hint[2] = {f.hint[k][0], f.hint[k][1]};
+    hinge::set_capacity(law, s, so_far, hint, here);
+    hinge::set_capacity(law, s, so_far + sense * small_flow, hint, further);
+    const int index = sense > 0 ? 0 : 1;
+    return std::max(further.capacity[index] - here.capacity[index], 0.0) / small_flow;
+}
+
 // Collects times and flags of a hinge without coupling from its components.
 void gather_separate(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHingeState& s, double t0, const double* before,
                      double arrest) {
@@ -157,7 +174,7 @@ void follow_flow(const SpatialHinge& hinge, const FrozenSpatialHinge& f, Spatial
     const double work = on_flange(hinge) || !counted || stands_still(hinge, flow) ? 0 : measure(hinge, flow);
     double ahead = 0, start = 0;
     for (int k = 0; k < size(hinge); k++) {
-        const double c = std::max(f.component[k].capacity[0], f.component[k].capacity[1]);
+        const double c = larger_capacity(f, k);
         ahead += c * c * f.w0[k] * w1[k], start += c * c * f.w0[k] * f.w0[k];
     }
     bool flowed = false, turned_back = false;
@@ -201,7 +218,7 @@ FrozenSpatialHinge freeze(const SpatialHinge& hinge, const SpatialHingeState& s,
     f.late = step.late;
     f.width = ramp_width(hinge);
     for (int k = 0; k < n; k++) {
-        f.w0[k] = w0[k];
+        f.w0[k] = w0[k], f.expected[k] = w1[k];
         f.tau0[k] = s.component[k].moment;
         for (int sense = 0; sense < 2; sense++) f.hint[k][sense] = s.component[k].hint[sense];
     }
@@ -220,6 +237,24 @@ FrozenSpatialHinge freeze(const SpatialHinge& hinge, const SpatialHingeState& s,
     }
     freeze_coupled(hinge, s, q0, w1, f);
     return f;
+}
+
+void divide_shared(const SpatialHinge& hinge, const SpatialHingeState& state, FrozenSpatialHinge& f, double share, double fastest) {
+    for (int k = 0; k < size(hinge) && !coupled(hinge); k++) f.slope[k] = slope_alone(law_of(hinge, k), state.component[k], f, k);
+    double weight = 1;
+    if (form_of(hinge) == Form::elastic_plastic) {
+        // the load at the start of the step
+        double back[most];
+        for (int k = 0; k < size(hinge); k++) back[k] = -f.w0[k];
+        const double load = std::clamp((load_factor(hinge, f, back) - divided_from) / (1 - divided_from), 0.0, 1.0);
+        weight = load * load * (3 - 2 * load);
+    }
+    const double power = f.reference * fastest;
+    for (int k = 0; k < size(hinge); k++) {
+        const double c = larger_capacity(f, k);
+        f.growth[k] = weight * f.slope[k] * f.h / 2;
+        f.viscous[k] = power > 0 ? weight * share * c * c / power : 0;
+    }
 }
 
 void widen(const SpatialHinge& hinge, FrozenSpatialHinge& f, double width) {
@@ -247,6 +282,7 @@ void commit(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHinge
         before[k] = c.rest_time;
         turn[k] = f.h * (f.w0[k] + w1[k]) / 2;
         q1[k] = q0[k] + turn[k];
+        c.damped += dividing_moment(f, k, w1[k]) * turn[k];
         if (apart) {
             hinge::commit(law_of(hinge, k), f.component[k], c, t0, q0[k], w1[k], &f.component[k].h);
             continue;

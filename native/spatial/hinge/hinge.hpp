@@ -81,6 +81,11 @@ struct FrozenSpatialHinge {
     double grown = 1;           // tension flange: share of its arm
     hinge::FrozenHinge component[most_components];  // capacities of both senses, stops, damper; of a shifted set its half axes
     double shift[most_components] = {}, centre[most_components] = {};  // share of the shift, and the centre of K
+    // What a capacity grows by with its own rotation over the step [N m/rad or N/m]; without coupling set by `divide_shared`.
+    double slope[most_components] = {};
+    // Quasi-static: what a moment grows by with its rate, and with its rate beyond `expected`, the one at which its capacity is frozen
+    // [N m s or N s]; see "Hinges that share a rotation" in docs/theory/spatial_kernel.md.
+    double viscous[most_components] = {}, growth[most_components] = {}, expected[most_components] = {};
     int hint[most_components][2] = {};
     // Coupled: the point of the surface found last, from which the next search starts.  Results depend on it by rounding alone.
     mutable double found[most_components] = {};
@@ -97,6 +102,7 @@ FrozenSpatialHinge freeze(const SpatialHinge& hinge, const SpatialHingeState& st
                         const double* w1);
 // force of an elastic-plastic component at the end of a step from its impulse
 inline double end_of(const FrozenSpatialHinge& f, int k, double impulse) { return (impulse / f.h - (1 - f.late) * f.tau0[k]) / f.late; }
+inline double dividing_moment(const FrozenSpatialHinge& f, int k, double w) { return f.viscous[k] * w + f.growth[k] * (w - f.expected[k]); }
 void widen(const SpatialHinge& hinge, FrozenSpatialHinge& f, double width);
 // Impulse (n), tangent (n x n, symmetric and positive semidefinite) and potential at the end rates w: `respond` for everything, `law`
 // without dampers and stops; any pointer may be null.  The impulse is the gradient of the potential.
@@ -104,9 +110,12 @@ void respond(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const doubl
              double* potential);
 void law(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* impulse, double* tangent,
          double* potential);
-// adds the contribution of dampers and stops
+// adds the contribution of dampers, stops, and of what divides a shared rotation
 void add_beside(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* impulse, double* tangent,
                 double* potential);
+// Quasi-static steps: lets moments grow with the rotation of the step as their laws do, and by a small `share` of a capacity at the rate
+// `fastest` (0: by none).
+void divide_shared(const SpatialHinge& hinge, const SpatialHingeState& state, FrozenSpatialHinge& f, double share, double fastest);
 // g of the trial state: below 1 the hinge is locked (or elastic), above 1 it flows
 double load_factor(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w);
 // power D(w) that a coupled hinge dissipates in plastic flow at rates w

@@ -179,9 +179,11 @@ void add_beside(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const do
     for (int k = 0; k < n; k++) {
         const hinge::Hinge& one = hinge.components[static_cast<size_t>(k)].law;
         const hinge::Response r = hinge::beside_response(one, f.component[k], w[k]);
-        if (impulse != nullptr) impulse[k] += r.impulse;
-        if (tangent != nullptr) tangent[k * n + k] += r.slope;
-        if (potential != nullptr) *potential += hinge::beside_potential(one, f.component[k], w[k]);
+        if (impulse != nullptr) impulse[k] += r.impulse + f.h * dividing_moment(f, k, w[k]);
+        if (tangent != nullptr) tangent[k * n + k] += r.slope + f.h * (f.viscous[k] + f.growth[k]);
+        if (potential == nullptr) continue;
+        *potential += hinge::beside_potential(one, f.component[k], w[k]);
+        *potential += f.h * w[k] * ((f.viscous[k] + f.growth[k]) * w[k] / 2 - f.growth[k] * f.expected[k]);
     }
 }
 
@@ -208,7 +210,7 @@ bool follow_impulse(const SpatialHinge& hinge, const FrozenSpatialHinge& f, cons
     double x[most], square = 0, along = 0;
     for (int k = 0; k < n; k++) {
         const hinge::Hinge& one = hinge.components[static_cast<size_t>(k)].law;
-        x[k] = (impulse[k] - f.h * f.centre[k] - hinge::beside_response(one, f.component[k], w[k]).impulse) / (f.h * t.scale[k]);
+        x[k] = (impulse[k] - f.h * f.centre[k] - hinge::beside_response(one, f.component[k], w[k]).impulse) / (f.h * t.scale[k]) - dividing_moment(f, k, w[k]) / t.scale[k];
         square += x[k] * x[k];
         along += x[k] * t.y[k];
     }

@@ -14,6 +14,9 @@ constexpr int passes = 2, most_passes = 20;
 constexpr double same_place = 1e-3;
 // Passes in which contacts take the load in turns, after which their friction may disagree: it would in all that follow.
 constexpr int most_turns = 3;
+// Share of its capacity by which a hinge resists more in a quasi-static step if it turns as fast as anything does.  It divides a rotation
+// between hinges of one capacity, which equilibrium leaves open, and is far below what any law is known to.
+constexpr double shared_share = 2e-4;
 // Length of a step that is used to evaluate the present state only [s].
 constexpr double instant = 1e-12;
 
@@ -175,6 +178,23 @@ void Stepper::freeze(const State& s, double h) {
         // one reversal is enough: a hinge that reverses in one pass and slides on in the next would alternate forever
         if (turned_back_[at(hinge)]) p_.frozen[at(hinge)].lead = 0;
     }
+    if (p_.stage.quasi_static && !p_.stage.lost) divide_shared_rotations(s);
+}
+
+// Hinges of one law in series, or that carry one axial force: equilibrium leaves open which of them flows.  Where nothing is driven, loads
+// may pass what the structure carries, and no viscosity may hold it then.
+void Stepper::divide_shared_rotations(const State& s) {
+    double fastest = 0;
+    bool driven = false;
+    for (size_t c = 0; c < p_.connections.size(); c++) {
+        if (!p_.is_joint(c)) continue;
+        const Joint& joint = p_.model.joints[at(p_.connections[c].index)];
+        for (int i = 0; joint.driven && i < joint.held; i++) driven = driven || p_.target[at(p_.start(c) + i)] != 0;
+    }
+    for (size_t i = 0; driven && i < guess_.size(); i++) {
+        fastest = std::max({fastest, norm(guess_[i].v) / p_.model.length, norm(guess_[i].w)});
+    }
+    for (size_t j = 0; j < p_.frozen.size(); j++) divide_shared(p_.model.hinges[j], s.hinge[j], p_.frozen[j], shared_share, fastest);
 }
 
 void Stepper::freeze_spring(const State& s, double h, size_t link) {

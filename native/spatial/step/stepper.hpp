@@ -84,6 +84,7 @@ private:
     void gather(State& s, double h, double gain);
     void predict(const State& s, double h);
     void set_free(const State& s);
+    void divide_shared_rotations(const State& s);
     void freeze_spring(const State& s, double h, size_t link);
     bool keeps_place() const;
     bool turned_back();
