@@ -30,7 +30,11 @@ SAMPLES = 101
 
 
 def write_exploration(
-    points: Sequence[Explored], sliders: Sequence[Slider], title: str, directory: Path | str
+    points: Sequence[Explored],
+    sliders: Sequence[Slider],
+    title: str,
+    directory: Path | str,
+    cautions: Sequence[str] = (),
 ) -> Path:
     """Write ``explore.html``, which contains the shapes and curves of all points.
 
@@ -44,6 +48,8 @@ def write_exploration(
         Of the page.
     directory
         Made when absent.
+    cautions
+        Sentences below the curves.
 
     Returns
     -------
@@ -73,7 +79,8 @@ def write_exploration(
     template = environment.get_template("explore.html.jinja")
     parts = page_parts(scene, "explore.css", script="explore.js")
     parts["scene"] |= {"names": parts["scene"]["names"][:1], "notes": parts["scene"]["notes"][:1]}
-    write_text(page, template.render(title=title or "Crash", count=len(points), failed=failed, **parts))
+    told = {"count": len(points), "failed": failed, "cautions": cautions}
+    write_text(page, template.render(title=title or "Crash", **told, **parts))
     return page
 
 

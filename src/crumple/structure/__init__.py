@@ -24,7 +24,7 @@ from crumple.structure.hinges.elastic_members import rigid_for_long, with_elasti
 from crumple.structure.hinges.hinges import placed_hinges, plastic_hinges, shares_left_out
 from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.joints.placed_hinge import PlacedHinge
-from crumple.structure.hinges.law_use import law_use_about, law_uses, used_texts, with_used_laws
+from crumple.structure.hinges.law_use import law_types_of, law_use_about, law_uses, used_texts, with_used_laws
 from crumple.structure.hinges.places import HingePlace, hinge_places, member_hinge_places
 from crumple.structure.hinges.struck_folds import DentedTube, dented_tubes
 from crumple.structure.keys.joint import Joint
@@ -113,6 +113,7 @@ __all__ = [
     "hinge_places",
     "history_problems",
     "joint_reach",
+    "law_types_of",
     "law_use_about",
     "law_uses",
     "member_hinge_places",
