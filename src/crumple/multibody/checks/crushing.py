@@ -30,7 +30,7 @@ from crumple.section import AXES, plastic_interaction
 from crumple.structure import Structure
 from crumple.structure.checks.doubtful import double_members
 from crumple.structure.hinges.asked import automatic_of
-from crumple.units import format_quantity
+from crumple.units import format_quantity, plain_number
 
 ALONG = np.cos(np.radians(30.0))
 """Cosine of the angle between a blow and a member's axis below which it counts as bending, not crushing."""
@@ -72,9 +72,9 @@ def crushing_cautions(structure: Structure, solved: Solved, *, struck: bool) -> 
         what = f"by the law {law}" if law else "the squash load"
         text = (
             f"{named('Member', list(beyond))} {'carries' if one else 'carry'} up to "
-            f"{max(beyond.values()) / 1e3:.4g} kN along {'its axis' if one else 'their axes'}, and "
-            f"{peak / 1e3:.4g} kN fold the walls ({what}), but nothing in {it} can shorten: axial folding "
-            f"is not modelled. Give {it} hinges with 'axial: {{law: {law or 'superfolding'}}}', "
+            f"{plain_number(max(beyond.values()) / 1e3)} kN along {'its axis' if one else 'their axes'}, and "
+            f"{plain_number(peak / 1e3)} kN fold the walls ({what}), but nothing in {it} can shorten: axial "
+            f"folding is not modelled. Give {it} hinges with 'axial: {{law: {law or 'superfolding'}}}', "
             f"{'' if solved.bending_tried else _bending(structure, beyond)}or solve with shells."
         )
         for member, force in beyond.items():
@@ -125,8 +125,9 @@ def buckling_cautions(structure: Structure, solved: Solved) -> Iterator[Caution]
         text = (
             f"{named('Member', list(found))} {'carries' if len(found) == 1 else 'carry'} up to "
             f"{force / limit:.3g} times the load of Euler between pinned ends ({worst}: "
-            f"{force / 1e3:.4g} kN, {limit / 1e3:.4g} kN). Rigid bars do not buckle: forces and energies may "
-            f"be several times too large; {advice}make the quasi-static stage a slow dynamic one, or solve "
+            f"{plain_number(force / 1e3)} kN, {plain_number(limit / 1e3)} kN). Rigid bars do not buckle: "
+            f"forces and energies may be several times too large; {advice}"
+            "make the quasi-static stage a slow dynamic one, or solve "
             "with shells."
         )
         for member, (force, limit) in found.items():

@@ -32,7 +32,7 @@ from crumple.structure.checks.doubtful import double_members
 from crumple.structure.hinges.lengthening.nodes_met import TOGETHER, supports_met
 from crumple.structure.hinges.spatial_hinges import interaction_of
 from crumple.structure.keys.obstacles import gap
-from crumple.units import format_quantity
+from crumple.units import format_quantity, plain_number
 
 FALL = 1e-3
 """Fall of a dissipated energy over the energy input that counts: the bound of the energy residual, so that
@@ -168,9 +168,9 @@ def tensions(structure: Structure, solved: Solved) -> Iterator[Caution]:
                 limit,
                 "N",
                 f"member {member}",
-                f"Member {member} is pulled by up to {force / 1e3:.4g} kN along its axis and yields in "
-                f"tension at {limit / 1e3:.4g} kN, but nothing in it can lengthen: the motion is that of a "
-                "rigid bar. Give it hinges with an axial law, or solve with shells.",
+                f"Member {member} is pulled by up to {plain_number(force / 1e3)} kN along its axis and "
+                f"yields in tension at {plain_number(limit / 1e3)} kN, but nothing in it can lengthen: the "
+                "motion is that of a rigid bar. Give it hinges with an axial law, or solve with shells.",
             )
 
 

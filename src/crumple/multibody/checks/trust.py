@@ -23,7 +23,7 @@ from crumple.result import HingeSummary
 from crumple.structure import PlacedHinge, Structure, dented_tubes, rigid_for_long
 from crumple.structure.hinges.elastic_members import IMPACT
 from crumple.text.names import listed
-from crumple.units import format_quantity
+from crumple.units import format_quantity, plain_number
 
 LOST_SHARE = 0.05
 """Share of the energy input that may be lost at the start before a warning is given: a node that is thrown
@@ -74,7 +74,7 @@ def assumptions(structure: Structure, solver: Solver, run: Run) -> tuple[str, ..
         _contact(structure),
         *(
             f"End {end.node} of member {end.member} crumples on obstacle {end.obstacle} at "
-            f"{end.force / 1e3:.4g} kN when its whole face is touched."
+            f"{plain_number(end.force / 1e3)} kN when its whole face is touched."
             for end in crumpling_ends(structure)
         ),
         *_dents(structure),

@@ -12,7 +12,7 @@ from crumple.analysis import Analysis
 from crumple.analysis.law_changes import as_solved, law_changes, law_types_at
 from crumple.study.rows.layouts import layout_place
 from crumple.study.space import Axis, Point
-from crumple.units import parse_quantity
+from crumple.units import parse_quantity, plain_number
 
 LOOKED_AT = 400
 """Different structures of one base whose laws are looked at, each in a millisecond or so; of more they are
@@ -99,5 +99,5 @@ def _spread(values: Sequence[tuple[float | str, ...]]) -> list[list[float]]:
 def _told(axis: Axis, value: float | str) -> str:
     """A value with its variable, in the unit of the input."""
     if isinstance(value, str) or axis.unit in {"", "1"}:
-        return f"{axis.name} {value if isinstance(value, str) else f'{value:.6g}'}"
-    return f"{axis.name} {value / parse_quantity(f'1 {axis.unit}', axis.unit):.6g} {axis.unit}"
+        return f"{axis.name} {value if isinstance(value, str) else plain_number(value, 6)}"
+    return f"{axis.name} {plain_number(value / parse_quantity(f'1 {axis.unit}', axis.unit), 6)} {axis.unit}"

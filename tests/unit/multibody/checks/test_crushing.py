@@ -10,6 +10,7 @@ from crumple.analysis import load, loads, solve
 from crumple.hinge import build_axial_law
 from crumple.multibody import Run, solve_multibody
 from crumple.structure import MultibodySettings, Outputs, SectionForce, Stage, Structure
+from crumple.units import plain_number
 
 SIDE, WALL = 0.05, 0.0015
 CRUSH = Path(__file__).parents[4] / "examples" / "07_axial_crush.yaml"
@@ -52,8 +53,8 @@ def peak():
 
 def test_a_column_pressed_beyond_its_folding_force_is_named(peak):
     (text,) = about(column(1.1 * peak))
-    assert text.startswith(f"Member ab carries up to {1.1 * peak / 1e3:.4g} kN along its axis")
-    assert f"{peak / 1e3:.4g} kN fold the walls (by the law square)" in text
+    assert text.startswith(f"Member ab carries up to {plain_number(1.1 * peak / 1e3)} kN along its axis")
+    assert f"{plain_number(peak / 1e3)} kN fold the walls (by the law square)" in text
     assert "'axial: {law: square}'" in text
     assert about(column(0.9 * peak)) == []
     # tension folds nothing, and what can shorten needs no warning
