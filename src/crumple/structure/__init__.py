@@ -13,7 +13,7 @@ For a solver:
 - `MultibodySettings`, `ShellSettings` and `Outputs` -> settings of a run.
 """
 
-from crumple.structure.bending import across_plane, planar
+from crumple.structure.bending import across_plane, driven_across, planar
 from crumple.structure.change import changed, value_at
 from crumple.structure.checks.checks import output_problems, problems_in, shell_problems
 from crumple.structure.checks.limit_checks import history_problems
@@ -108,6 +108,7 @@ __all__ = [
     "any_automatic",
     "changed",
     "dented_tubes",
+    "driven_across",
     "frame_of",
     "gap",
     "hinge_places",
