@@ -18,9 +18,11 @@ from crumple.multibody.checks.held_parts import held_part_warnings
 from crumple.multibody.checks.names import named
 from crumple.multibody.checks.overlap import overlap_warnings
 from crumple.multibody.checks.physics import energy_put_in
+from crumple.multibody.checks.stuck_drives import loose_drives
 from crumple.multibody.run import Run
 from crumple.result import HingeSummary
 from crumple.structure import PlacedHinge, Structure, dented_tubes, rigid_for_long
+from crumple.structure.checks.partly_driven import driven_assumptions
 from crumple.structure.hinges.elastic_members import IMPACT
 from crumple.text.names import listed
 from crumple.units import format_quantity, plain_number
@@ -78,6 +80,7 @@ def assumptions(structure: Structure, solver: Solver, run: Run) -> tuple[str, ..
             for end in crumpling_ends(structure)
         ),
         *_dents(structure),
+        *driven_assumptions(structure),
         *free_parts(link(structure)),
         *solver.notes,
     ]
@@ -177,6 +180,7 @@ def warnings(
     found += broken_warnings(solved.hinges)
     found += overlap_warnings(structure)
     found += held_part_warnings(structure, solved)
+    found += loose_drives(structure, link(structure))
     found += inaccurate(hinges, largest)
     found += [
         f"Material {name}: {spec.statement}" for name, spec in structure.materials.items() if spec.statement
