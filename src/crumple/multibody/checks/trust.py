@@ -60,6 +60,10 @@ SHEARED = (
     "Shear forces leave hinges of closed sections less torque, as their walls carry both; "
     "members do not slip sideways where they yield."
 )
+AT_OUTPUTS = (
+    "Forces in members and on obstacles, speeds of nodes and depths of dents are judged at the outputs: what "
+    "lasts shorter than their interval may have no caution."
+)
 SPATIAL = "The motion is spatial: hinges carry rigidly what is not about their own axes."
 
 
@@ -81,6 +85,7 @@ def assumptions(structure: Structure, solver: Solver, run: Run) -> tuple[str, ..
         ),
         *_dents(structure),
         *driven_assumptions(structure),
+        *([AT_OUTPUTS] if solver.kernel != "tree" else []),
         *free_parts(link(structure)),
         *solver.notes,
     ]
@@ -202,8 +207,8 @@ def warnings(
     if total > 0.0 and stored > ELASTIC_SHARE * total:
         found.append(
             f"The bars are rigid, but the members could store up to {stored:.3g} J elastically "
-            f"({_share(stored / total)}): rotations lack the elastic part and the plastic ones are "
-            f"too large{'' if solved.bending_tried else BEND}."
+            f"({_share(stored / total)}), by their moments at the outputs: rotations lack the elastic part "
+            f"and the plastic ones are too large{'' if solved.bending_tried else BEND}."
         )
     found += _slowed(solved)
     if solved.forced:
