@@ -291,10 +291,24 @@ def format_quantity(value: float, unit: str, digits: int = 4) -> str:
             if _digits(value / _scale(name), digits) >= 1.0 and abs(value) >= _LARGEST_ALONE.get(name, 0.0)
         )
         chosen = next(fitting, ladder[-1])
-    number = format(value / _scale(chosen), f".{digits}g")
-    if "e+0" in number and abs(value / _scale(chosen)) < _EXPONENT_FROM:
-        number = format(float(number), ".0f")
+    number = plain_number(value / _scale(chosen), digits)
     return number if chosen == "1" else f"{number} {chosen}"
+
+
+def plain_number(value: float, digits: int = 4) -> str:
+    """A number with significant digits, without an exponent below 10 million: 7630, not 7.63e+03.
+
+    Parameters
+    ----------
+    value
+        In the unit that is written behind it; need not be finite.
+    digits
+        Significant digits.
+    """
+    number = format(value, f".{digits}g")
+    if "e+0" in number and abs(value) < _EXPONENT_FROM:
+        number = format(float(number), ".0f")
+    return number
 
 
 def _digits(value: float, digits: int) -> float:

@@ -11,7 +11,7 @@ from crumple.analysis.criteria import Criterion
 from crumple.analysis.filters import filter_problems
 from crumple.analysis.uncertainty import Uncertainty
 from crumple.errors import Problem
-from crumple.registry.quantity import PositiveTime
+from crumple.registry.quantity import Duration
 from crumple.registry.refusal import refuse
 from crumple.structure import (
     MultibodySettings,
@@ -41,7 +41,7 @@ MOST_SAMPLES = 1_000_000
 class Settings(Spec):
     """How long to simulate, and the settings of the solvers."""
 
-    duration: PositiveTime | None = None
+    duration: Duration | None = None
     """Time to simulate; with `stages` the sum of theirs."""
     stages: Annotated[tuple[Stage, ...], Field(max_length=MOST_STAGES)] = ()
     """What happens in sequence; without it one dynamic stage of `duration`."""
@@ -132,7 +132,7 @@ class Analysis(Spec):
     """
 
     structure: Structure
-    duration: PositiveTime
+    duration: Duration
     title: Title = ""
     stages: tuple[Stage, ...] = ()
     multibody: MultibodySettings = MultibodySettings()

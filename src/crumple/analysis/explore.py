@@ -12,6 +12,7 @@ import numpy as np
 
 from crumple.analysis.analysis import Analysis
 from crumple.analysis.frames import solve_with_frames
+from crumple.analysis.law_changes import as_solved, law_changes, law_types_at
 from crumple.errors import InputError, Problem
 from crumple.result import Result
 from crumple.structure import Structure, changed, value_at
@@ -111,6 +112,27 @@ def explore(
         if progress is not None:
             progress((i + 1) / len(points))
     return found
+
+
+def law_cautions(analysis: Analysis, sliders: Sequence[Slider], points: Sequence[Explored]) -> list[str]:
+    """Sentences about hinges that have laws of other types at other points of the grid."""
+    base, types, places = as_solved(analysis), {}, {}
+    for i, point in enumerate(points):
+        laws = law_types_at(base, {one.path: value for one, value in zip(sliders, point.values, strict=True)})
+        if laws is not None:
+            types[i] = laws
+            places[i] = [one.values.index(value) for one, value in zip(sliders, point.values, strict=True)]
+    told = [
+        ", ".join(
+            f"{one.path} {value / one.factor:.6g}{'' if one.unit == '1' else f' {one.unit}'}"
+            for one, value in zip(sliders, point.values, strict=True)
+        )
+        for point in points
+    ]
+    changes = law_changes(types, places, dict.fromkeys(types, 1))
+    return [
+        change.sentence("variant", (told[change.variants[0]], told[change.variants[1]])) for change in changes
+    ]
 
 
 def _solved(

@@ -78,6 +78,7 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
     from crumple.multibody import (
         infinitesimal,
         link,
+        loose_drives,
         notes,
         struck_cautions,
         stuck_drives,
@@ -85,6 +86,7 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
         unheld_notes,
     )
     from crumple.structure import with_elastic_members
+    from crumple.structure.checks.partly_driven import driven_assumptions
     from crumple.structure.checks.section_axes import section_doubts
 
     structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
@@ -92,6 +94,8 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
     loose = unheld_notes(analysis.structure, linkage, analysis.stages)
     stuck = stuck_note(stuck_drives(analysis.structure, linkage))
     yield from filter(None, (*notes(linkage), infinitesimal(linkage), stuck, *loose))
+    yield from driven_assumptions(structure)
+    yield from loose_drives(structure, linkage)
     yield from (f"Caution: {caution.text}" for caution in struck_cautions(structure))
     yield from (f"Caution: {text}" for text in dict.fromkeys(one.text for one in section_doubts(structure)))
 

@@ -192,6 +192,8 @@ def _target(file: Path, out: str | None, workers: int, executor: Executor | None
                 for name in loaded.file.target.criteria
             )
             typer.echo(f"{i}. {one.name}: {format_quantity(one.mass, 'kg')} with {walls}; {kept} ({rows})")
+            for change in one.answer.law_changes:
+                typer.echo(f"   {change['text']}")
         typer.echo(f"Results: {folder}  (ranking.csv, ranking.json, a folder for each base)")
     if all(one.best is None for one in found):
         raise typer.Exit(1)

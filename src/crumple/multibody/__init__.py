@@ -9,7 +9,7 @@ from crumple.multibody.bodies.linkage import Connection, Linkage, link
 from crumple.multibody.bodies.mobility import notes
 from crumple.multibody.checks.infinitesimal import infinitesimal
 from crumple.multibody.checks.struck import struck_cautions
-from crumple.multibody.checks.stuck_drives import stuck_drives, stuck_note
+from crumple.multibody.checks.stuck_drives import loose_drives, stuck_drives, stuck_note
 from crumple.multibody.checks.unheld import unheld_notes
 from crumple.multibody.planar.mechanism import Link, Mechanism, lower
 from crumple.multibody.planar.model import planar_initial_motion, tree_hinge, tree_model
@@ -39,6 +39,7 @@ __all__ = [
     "law_range",
     "least_seconds",
     "link",
+    "loose_drives",
     "lower",
     "modes",
     "notes",

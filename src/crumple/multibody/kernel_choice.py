@@ -17,7 +17,7 @@ from crumple.multibody.bodies.mobility import floating_bodies, mobility, too_lar
 from crumple.multibody.planar.plane import PARALLEL, plane_of
 from crumple.multibody.run import Run
 from crumple.numeric.arrays import Floats
-from crumple.structure import FREEDOMS, PlacedHinge, Structure, across_plane, placed_hinges
+from crumple.structure import FREEDOMS, PlacedHinge, Structure, across_plane, driven_across, placed_hinges
 
 MOST_LOOPS = 8
 """Number of closed loops up to which the tree kernel is used: its cost grows with their square."""
@@ -88,6 +88,10 @@ def _reasons(structure: Structure, hinges: tuple[PlacedHinge, ...], run: Run) ->
     leaning = _leaning(structure, normal)
     if leaning is not None:
         yield f"{leaning} holds a direction that leans to the plane across the hinges"
+    driven = driven_across(structure, normal)
+    if driven is not None:
+        # nothing can move out of the plane by itself, but it is driven there
+        yield f"{driven} leads out of the plane across the hinges"
     if dead_centres(linkage):
         yield "hinges or joints are at a dead centre"
     if not mobility(linkage, locked=True).motions:

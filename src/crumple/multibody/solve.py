@@ -46,6 +46,7 @@ from crumple.multibody.spatial.solver import SpatialSolver
 from crumple.numeric.arrays import Floats
 from crumple.result import Provenance, Result, missing_pictures, sentences
 from crumple.structure import Structure, any_automatic, law_use_about, placed_hinges, with_elastic_members
+from crumple.text.names import listed
 
 FORK = 0.05
 """Difference of the rotations of two runs over the largest one that accuracy alone hardly explains."""
@@ -97,7 +98,7 @@ def solve_multibody(
             refuse_pictures(structure, len(picture_times(run)))
             solver = solver_of(structure, run)
             if not solver.moving:
-                raise _nothing_moves()
+                raise _nothing_moves(structure)
             checked = CHECKED_FROM if run.checks and _check_asked(structure, run, solver) else 1.0
             poll = poll_of(run.duration, (0.0, 0.7 * checked), progress, cancel)
             solved = rough = solver.run(accuracy / CHECK_FACTOR, poll)
@@ -348,13 +349,16 @@ def _nothing_solved(run: Run, reason: str, seconds: float) -> Result:
     )
 
 
-def _nothing_moves() -> InputError:
+def _nothing_moves(structure: Structure) -> InputError:
+    driven = [name for name, support in structure.supports.items() if support.driven]
+    pushed = f"support{'s' if len(driven) > 1 else ''} {listed(driven)} cannot move what others clamp"
     return InputError(
         Problem(
             "nothing can move: every part is held and no member has a hinge",
-            "",
+            pushed if driven else "",
             "at least one hinge, or a part that is not clamped",
-            "add hinges to the members that are to fold",
+            "add hinges to the members that are to fold ('hinges: auto'), free what a motion is to move, or "
+            "let members bend: 'analysis: {multibody: {members: elastic}}'",
             "members",
         )
     )

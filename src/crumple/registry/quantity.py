@@ -252,6 +252,8 @@ PositiveMass = Annotated[float, _positive(MASS)]
 NonNegativeMass = Annotated[float, _not_negative(MASS)]
 Time = Annotated[float, TIME]
 PositiveTime = Annotated[float, _positive(TIME)]
+# of a run or stage: the smallest step of the multibody solver; elastic waves go 5 micrometres meanwhile
+Duration = Annotated[float, replace(TIME, at_least=1e-9)]
 NonNegativeTime = Annotated[float, _not_negative(TIME)]
 Angle = Annotated[float, ANGLE]
 PositiveAngle = Annotated[float, _positive(ANGLE)]

@@ -15,7 +15,7 @@ from crumple.errors import InputError, Problem
 from crumple.portable import write_text
 from crumple.report.drawing.scales import display_unit, largest, output_groups
 from crumple.report.figures.curves import ranked_hinges
-from crumple.units import format_quantity
+from crumple.units import format_quantity, plain_number
 
 if TYPE_CHECKING:
     from crumple.report.scene.scene import Scene
@@ -30,7 +30,11 @@ SAMPLES = 101
 
 
 def write_exploration(
-    points: Sequence[Explored], sliders: Sequence[Slider], title: str, directory: Path | str
+    points: Sequence[Explored],
+    sliders: Sequence[Slider],
+    title: str,
+    directory: Path | str,
+    cautions: Sequence[str] = (),
 ) -> Path:
     """Write ``explore.html``, which contains the shapes and curves of all points.
 
@@ -44,6 +48,8 @@ def write_exploration(
         Of the page.
     directory
         Made when absent.
+    cautions
+        Sentences below the curves.
 
     Returns
     -------
@@ -73,7 +79,8 @@ def write_exploration(
     template = environment.get_template("explore.html.jinja")
     parts = page_parts(scene, "explore.css", script="explore.js")
     parts["scene"] |= {"names": parts["scene"]["names"][:1], "notes": parts["scene"]["notes"][:1]}
-    write_text(page, template.render(title=title or "Crash", count=len(points), failed=failed, **parts))
+    told = {"count": len(points), "failed": failed, "cautions": cautions}
+    write_text(page, template.render(title=title or "Crash", **told, **parts))
     return page
 
 
@@ -155,7 +162,7 @@ def sentence(points: Sequence[Explored], sliders: Sequence[Slider]) -> str:
     ranges = []
     for slider in sliders:
         unit = slider.unit
-        ends = (f"{slider.values[i] / slider.factor:.4g}" for i in (0, -1))
+        ends = (plain_number(slider.values[i] / slider.factor) for i in (0, -1))
         ranges.append(f"{slider.path} from {' to '.join(ends)}{'' if unit == '1' else ' ' + unit}")
     good = sum(_usable(point) for point in points)
     seconds = sum(point.result.solve_seconds for point in points if point.result is not None)

@@ -13,7 +13,7 @@ For a solver:
 - `MultibodySettings`, `ShellSettings` and `Outputs` -> settings of a run.
 """
 
-from crumple.structure.bending import across_plane, planar
+from crumple.structure.bending import across_plane, driven_across, planar
 from crumple.structure.change import changed, value_at
 from crumple.structure.checks.checks import output_problems, problems_in, shell_problems
 from crumple.structure.checks.limit_checks import history_problems
@@ -24,7 +24,7 @@ from crumple.structure.hinges.elastic_members import rigid_for_long, with_elasti
 from crumple.structure.hinges.hinges import placed_hinges, plastic_hinges, shares_left_out
 from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.joints.placed_hinge import PlacedHinge
-from crumple.structure.hinges.law_use import law_use_about, law_uses, used_texts, with_used_laws
+from crumple.structure.hinges.law_use import law_types_of, law_use_about, law_uses, used_texts, with_used_laws
 from crumple.structure.hinges.places import HingePlace, hinge_places, member_hinge_places
 from crumple.structure.hinges.struck_folds import DentedTube, dented_tubes
 from crumple.structure.keys.joint import Joint
@@ -108,11 +108,13 @@ __all__ = [
     "any_automatic",
     "changed",
     "dented_tubes",
+    "driven_across",
     "frame_of",
     "gap",
     "hinge_places",
     "history_problems",
     "joint_reach",
+    "law_types_of",
     "law_use_about",
     "law_uses",
     "member_hinge_places",

@@ -88,6 +88,20 @@ def across_plane(structure: StructureParts, normal: Floats) -> str | None:
     return next((where for where, part in _parts_across(structure, normal) if part > LEVEL), None)
 
 
+def driven_across(structure: StructureParts, normal: Floats) -> str | None:
+    """Path of the first support that drives its node out of a plane; None if all do so in the plane."""
+    return next((where for where, part in _drives_across(structure, normal) if part > LEVEL), None)
+
+
+def _drives_across(structure: StructureParts, normal: Floats) -> Iterator[tuple[str, float]]:
+    """Share of the motion of all driven supports out of a plane, by path."""
+    for name, support in structure.supports.items():
+        for freedom in support.driven:
+            unit = np.eye(3)["xyz".index(freedom[-1])]
+            part = _aside(unit, normal) if freedom[0] == "r" else _along(unit, normal)
+            yield f"supports.{name}.motion", part
+
+
 def _parts_across(structure: StructureParts, normal: Floats) -> Iterator[tuple[str, float]]:
     """Share of all velocities, impulses, forces, driven motions and obstacles out of a plane, by path."""
 
@@ -109,10 +123,7 @@ def _parts_across(structure: StructureParts, normal: Floats) -> Iterator[tuple[s
                 yield f"loads[{i}].force", along(unit)
             if getattr(load.moment, axis) is not None:
                 yield f"loads[{i}].moment", aside(unit)
-    for name, support in structure.supports.items():
-        for freedom in support.driven:
-            unit = np.eye(3)["xyz".index(freedom[-1])]
-            yield f"supports.{name}.motion", aside(unit) if freedom[0] == "r" else along(unit)
+    yield from _drives_across(structure, normal)
     for name, mass in structure.masses.items():
         size = float(np.linalg.norm(mass.offset))
         yield f"masses.{name}.offset", along(mass.offset) if size > 0.0 else 0.0

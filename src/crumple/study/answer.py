@@ -24,6 +24,8 @@ from crumple.units import format_quantity
 
 ROUNDING = 1e-12
 """Largest difference of values that count as equal, as a share of the largest of them."""
+MOST_CHANGES = 6
+"""Changes of laws that console and page name."""
 
 _NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
@@ -55,6 +57,8 @@ class Answer:
     nearest
         With objectives and no row that meets all constraints: that with the smallest sum of excesses, each
         over its limit; None without one.
+    law_changes
+        Between which rows hinges have laws of other types, see `crumple.study.rows.laws`.
     indices
         Sobol' indices of each response, or why there are none.
     verification
@@ -80,6 +84,7 @@ class Answer:
     limits: Limits = ()
     reasons: Mapping[str, tuple[str, int]] = field(default_factory=dict)
     nearest: Mapping[str, Any] | None = None
+    law_changes: Sequence[Mapping[str, Any]] = ()
 
     def plain(self) -> dict[str, Any]:
         """Content of study.json; without `solved`, which a resumed study has otherwise."""
@@ -96,17 +101,22 @@ class Answer:
             "indices": self.indices,
             "front": list(self.front),
             "verification": self.verification,
+            "law_changes": list(self.law_changes),
         }
 
 
 def remarks(answer: Answer) -> list[str]:
-    """Sentences for console and page: why rows failed, what lacks them, and that no row is feasible."""
+    """Sentences for console and page: failed rows, what lacks them, changes of laws, no feasible row."""
     found = [f"first of {count} alike: {reason}" for reason, count in answer.reasons.values()]
     lost = answer.rows - answer.complete
     if answer.probabilities and lost:
         found.append(
             f"caution: {lost} of {answer.rows} rows have no result and are left out of probabilities"
         )
+    changes = [change["text"] for change in answer.law_changes]
+    found += changes[:MOST_CHANGES]
+    if len(changes) > MOST_CHANGES:
+        found.append(f"laws change {len(changes) - MOST_CHANGES} times more: study.json, law_changes")
     if answer.nearest is not None:
         near = answer.nearest
         values = [f"{name} {_plain(value)}" for name, value in near["variables"].items()]

@@ -15,7 +15,7 @@ from crumple.study.answer import Answer, columns_of, is_constant, judged_rows, r
 from crumple.study.space import Axis
 from crumple.study.study_file import LoadedStudy, Study
 from crumple.study.table import Table
-from crumple.units import format_quantity, parse_quantity, unit_factor
+from crumple.units import format_quantity, parse_quantity, plain_number, unit_factor
 
 MOST_ROWS = 5_000
 """Rows on a page: a browser draws them at once."""
@@ -170,7 +170,7 @@ def _ends(given: Sequence[float | str], values: Floats, unit: tuple[str, float])
         words = isinstance(given[0], str)
         low, high = (int(np.argmin(means)), int(np.argmax(means))) if words else (0, len(levels) - 1)
         told = [
-            level if isinstance(level, str) else f"{level / unit[1]:.4g} {unit[0]}".strip()
+            level if isinstance(level, str) else f"{plain_number(level / unit[1])} {unit[0]}".strip()
             for level in (levels[low], levels[high])
         ]
         return {"low": means[low], "high": means[high], "at_low": told[0], "at_high": told[1]}
@@ -178,7 +178,7 @@ def _ends(given: Sequence[float | str], values: Floats, unit: tuple[str, float])
         return None
     numbers = np.array(given, float)
     below, above = np.quantile(numbers, [TENTH, 1.0 - TENTH])
-    told = [f"{end / unit[1]:.4g} {unit[0]}".strip() for end in (below, above)]
+    told = [f"{plain_number(end / unit[1])} {unit[0]}".strip() for end in (below, above)]
     return {
         "low": float(values[numbers <= below].mean()),
         "high": float(values[numbers >= above].mean()),

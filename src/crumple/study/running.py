@@ -26,6 +26,7 @@ from crumple.study.rows import (
     Model,
     ProcessModel,
     batched,
+    changed_laws,
     layout_place,
 )
 from crumple.study.setting import Setting, setting_for, setting_of
@@ -85,6 +86,9 @@ def run_study(
         if setting.study.verify is not None:
             with _model(setting, study, workers, executor, slow=True) as slow:
                 answer = _verified(setting, slow, table, answer, out, progress)
+        if setting.study.fidelity == "multibody":
+            bases = {name: base.analysis for name, base in study.bases.items()}
+            answer = replace(answer, law_changes=changed_laws(setting.axes, table.points, bases))
         _write(setting, table, answer, out)
     return table, answer
 

@@ -110,6 +110,12 @@ CASES = {
         "not finite",
     ),
     "nan with a unit": ("488 MPa", "nan MPa", "materials.steel.yield_stress", "not a number with a unit"),
+    "next to no duration": (
+        "duration: 100 ms",
+        "duration: 1e-17 s",
+        "analysis.duration",
+        "it must be at least 1e-09 s",
+    ),
     "infinite": ("duration: 100 ms", "duration: .inf", "analysis.duration", "not finite"),
     "incompressible": (
         "poissons_ratio: 0.3",

@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from crumple.errors import InputError
-from crumple.units import TABLE, QuantityError, format_quantity, parse_quantity, unit_factor
+from crumple.units import TABLE, QuantityError, format_quantity, parse_quantity, plain_number, unit_factor
 
 
 @pytest.mark.parametrize(
@@ -219,6 +219,22 @@ def test_unit_factor() -> None:
 )
 def test_people_read(value: float, unit: str, text: str) -> None:
     assert format_quantity(value, unit) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "digits", "text"),
+    [
+        (7634.0, 3, "7630"),
+        (-7634.0, 3, "-7630"),
+        (12345.0, 4, "12340"),
+        (0.01234, 3, "0.0123"),
+        (9.9999e6, 3, "10000000"),
+        (1.5e8, 3, "1.5e+08"),
+        (math.nan, 3, "nan"),
+    ],
+)
+def test_numbers_before_a_unit_have_no_exponent(value: float, digits: int, text: str) -> None:
+    assert plain_number(value, digits) == text
 
 
 _UNITS = ["m", "m^2", "m^4", "kg", "s", "rad", "Pa", "N", "N*m", "J", "rad/s", "kg/m^3", "N*m/rad", "1"]

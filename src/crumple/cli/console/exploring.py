@@ -38,7 +38,7 @@ def explored(wanted: str | None, source: LoadedInput, folder: Path, *, quiet: bo
     (folder / PAGE).unlink(missing_ok=True)
     if wanted is None:
         return
-    from crumple.analysis.explore import explore
+    from crumple.analysis.explore import explore, law_cautions
     from crumple.cli.console.folder import results_errors
     from crumple.cli.console.progress import progress_bar
     from crumple.portable import stop_on_interrupt
@@ -46,8 +46,11 @@ def explored(wanted: str | None, source: LoadedInput, folder: Path, *, quiet: bo
     sliders = checked(wanted, source, Fidelity.MULTIBODY)
     with stop_on_interrupt() as cancel, progress_bar("exploring") as progress:
         points = explore(source.analysis, sliders, progress, cancel)
+    cautions = law_cautions(source.analysis, sliders, points)
     with results_errors(folder):
-        page = write_exploration(points, sliders, source.analysis.title, folder)
+        page = write_exploration(points, sliders, source.analysis.title, folder, cautions)
     if not quiet:
         typer.echo(sentence(points, sliders))
+        for caution in cautions:
+            typer.echo(caution)
         typer.echo(f"Page with sliders: {page}")

@@ -289,9 +289,14 @@ def _plastic(
         if window is not None:
             abscissa, ordinate = smoothed(abscissa, ordinate, window)
         plastic, capacity, slope = plastic_part(abscissa, ordinate, stiffness)
-        if len(plastic) < 2 or np.any(capacity <= 0.0):
-            what, todo = "the curve has no plastic part with positive values", "check its units and its sign"
-            raise InputError(Problem(what, todo=todo))
+        if np.any(capacity <= 0.0):
+            what = "the moment or force falls to 0 behind the elastic rise"
+            todo = "end the curve before, keep a small residual capacity, or let the hinge break: fracture"
+            raise InputError(Problem(what, f"{float(capacity.min()):g}", "> 0", todo))
+        if len(plastic) < 2:
+            what = "the curve has no plastic part: it lies on the elastic line to its end"
+            todo = "measure further, check units and sign, or give a larger elastic_stiffness"
+            raise InputError(Problem(what, f"{slope:g} per unit of the abscissa", "", todo))
     except InputError as error:
         named = [
             Problem(one.what, one.came, one.allowed, one.todo, f"specimen {name}") for one in error.problems

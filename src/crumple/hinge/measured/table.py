@@ -12,7 +12,7 @@ import numpy as np
 
 from crumple.errors import InputError, Problem
 from crumple.numeric.arrays import Floats
-from crumple.units import QuantityError, unit_factor
+from crumple.units import QuantityError, plain_number, unit_factor
 
 Curve = Sequence[float] | Floats
 
@@ -123,8 +123,8 @@ def plastic_part(
     Raises
     ------
     InputError
-        If the rise has fewer than two points between 20 and 60 % of the peak and no stiffness is given, the
-        given one is not positive, or the curve has no plastic part.
+        If the rise has fewer than two points between 20 and 60 % of the peak and no stiffness is given, or
+        the given one is not positive or steeper than every line from zero to a point of the rise.
 
     Notes
     -----
@@ -147,9 +147,7 @@ def plastic_part(
     on_line = np.flatnonzero(plastic[: peak + 1] <= ON_THE_LINE * moment[peak] / elastic_stiffness)
     first = int(on_line[-1]) if on_line.size else 0
     if not moment[first] > 0.0:
-        todo = "give the slope of the elastic rise, or omit it to have it computed"
-        came = f"{elastic_stiffness:g} N m/rad"
-        raise InputError(Problem("no point lies on the elastic line", came, "", todo, "elastic_stiffness"))
+        raise InputError(_too_steep(total[: peak + 1], moment[: peak + 1], elastic_stiffness))
     kept = [first]
     start = plastic[first]
     for index in range(first + 1, len(plastic)):
@@ -163,10 +161,53 @@ def _elastic_line(rotation: Floats, moment: Floats) -> tuple[float, float]:
     low, high = (share * moment[-1] for share in ELASTIC_SHARES)
     rise = (moment >= low) & (moment <= high)
     if np.count_nonzero(rise) < 2 or np.ptp(rotation[rise]) <= 0.0:
-        what = "the elastic rise has fewer than two points between 20 and 60 % of the peak moment"
-        raise InputError(Problem(what, todo="give elastic_stiffness", where="elastic_stiffness"))
+        raise InputError(_no_rise(rotation, moment, int(np.count_nonzero(rise))))
     slope, intercept = np.polyfit(rotation[rise], moment[rise], 1)
+    if not slope > 0.0:
+        raise InputError(_no_rise(rotation, moment, int(np.count_nonzero(rise))))
     return float(slope), float(-intercept / slope)
+
+
+def _steepest(rotation: Floats, moment: Floats) -> float:
+    """Slope of the steepest line from zero to a point of the rise [N m/rad], rounded down to four digits.
+
+    A steeper elastic line meets no point of the curve but zero; infinite if the curve begins with a moment.
+    """
+    risen = moment > 0.0
+    if not risen.any() or rotation[risen][0] <= 0.0:
+        return math.inf
+    slope = float(np.max(moment[risen] / rotation[risen]))
+    unit = 10.0 ** (math.floor(math.log10(slope)) - 3)
+    return math.floor(slope / unit) * unit
+
+
+def _no_rise(rotation: Floats, moment: Floats, count: int) -> Problem:
+    """Of a curve whose elastic slope cannot be found; what is asked for is accepted."""
+    what = "the elastic rise cannot be found: two points must rise between 20 and 60 % of the peak moment"
+    came, slope = f"{count} point{'' if count == 1 else 's'}", _steepest(rotation, moment)
+    if math.isinf(slope):
+        todo = (
+            "add points of the rise; or, if rotations are plastic since the curve begins with a moment, "
+            "write 'type: table' without 'remove_elastic'; or give elastic_stiffness, the slope of the rise"
+        )
+    else:
+        written = f"elastic_stiffness: {plain_number(slope / 1e3)} kN*m/rad"
+        todo = f"add points of the rise, or write '{written}', the steepest line from zero to a point of it"
+    return Problem(what, came, "at least two", todo, "elastic_stiffness")
+
+
+def _too_steep(rotation: Floats, moment: Floats, given: float) -> Problem:
+    """Of a given stiffness whose elastic line meets no point; what is asked for is accepted."""
+    what = "the elastic stiffness is steeper than the rise of the curve: no point lies on the elastic line"
+    most = f"{plain_number(_steepest(rotation, moment) / 1e3)} kN*m/rad"
+    todo = f"write at most 'elastic_stiffness: {most}'"
+    try:
+        _elastic_line(rotation, moment)
+        todo += ", or leave it out: then the slope is found from the curve"
+    except InputError:
+        todo += ", or add points of the rise and leave it out"
+    came = f"{plain_number(given / 1e3)} kN*m/rad"
+    return Problem(what, came, f"more than 0, at most {most}", todo, "elastic_stiffness")
 
 
 def _column(head: Sequence[str], column: Column, file: str, line: int) -> tuple[int, float]:

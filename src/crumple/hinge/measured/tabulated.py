@@ -245,7 +245,10 @@ def _curve_problems(rotation: Curve, moment: Curve, prefix: str) -> list[Problem
         problems.append(Problem(what, f"{came}, ... rad", "0 < 1st < 2nd < ...", todo, where_rotation))
     if not np.all(np.isfinite(moment)) or min(moment) <= 0.0:
         what = "capacities must be positive"
-        todo = "remove the elastic rise: the hinge rotation is plastic only"
+        todo = (
+            "remove the elastic rise, the hinge rotation is plastic only: write 'remove_elastic: true', or "
+            "begin with the moment at which it yields"
+        )
         if moment[0] > 0.0:
             todo = "keep a small residual capacity, or let the hinge break: fracture"
         problems.append(Problem(what, f"{min(moment):g} N m", "> 0 N m", todo, where_moment))

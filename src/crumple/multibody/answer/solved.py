@@ -75,11 +75,25 @@ class HingeHistory:
         by_law: dict[HingeLaw, dict[Axis, Floats]] = {}
         for axis, values in bent.items():
             by_law.setdefault(hinge.laws.get(axis, hinge.law), {})[axis] = values
+        least = self._turned_between_outputs()
         largest = [
-            (next(iter(parts)), law, float(np.linalg.norm(list(parts.values()), axis=0).max(initial=0.0)))
+            (next(iter(parts)), law, float(np.linalg.norm(list(parts.values()), axis=0).max(initial=least)))
             for law, parts in by_law.items()
         ]
         return [one for one in largest if one[2] > YIELDED]
+
+    def _turned_between_outputs(self) -> float:
+        """Plastic bending that was reached at any step at least [rad], of a hinge with one rotation alone.
+
+        What it bends elastically is at most its largest moment over its stiffness.  0 of other hinges: the
+        largest length of their rotations, elastic parts and twist included, says nothing of one law.
+        """
+        spatial = self.hinge.spatial
+        if spatial is not None and [freedom for freedom in spatial.freedoms if freedom >= Freedom.X] != [
+            Freedom[self.hinge.axis.upper()]
+        ]:
+            return 0.0
+        return max(self.rotation_max - self.moment_max / self.hinge.record.elastic_stiffness, 0.0)
 
     def judged_by(self) -> tuple[Axis, HingeLaw, float]:
         """Of `bent_by_law` the one by which the hinge is judged.

@@ -2,8 +2,9 @@
 
 A hinge without an axial component carries any axial force.  What would fold the walls is the peak of the
 first axial law that takes the section, or its squash load.  Against it stands, at every hinge, the axial
-force that two outputs in a row reach; and, where impacts took most of the energy, the force of an obstacle,
-which is a mean between outputs, on members that lie along it.
+force that two outputs in a row reach; and, where impacts took most of the energy, the force of an obstacle on
+members that lie along it: its impulse over the time in which an elastic wave goes along the member and back,
+since a rigid impact takes none.
 
 Rigid bars do not buckle either.  Under slow loading the same force, of hinges that shorten too, is compared
 with Euler's load of the member between pinned ends, pi^2 E I/L^2 with the smaller second moment.
@@ -11,6 +12,7 @@ with Euler's load of the member between pinned ends, pi^2 E I/L^2 with the small
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 
 import numpy as np
@@ -30,7 +32,7 @@ from crumple.section import AXES, plastic_interaction
 from crumple.structure import Structure
 from crumple.structure.checks.doubtful import double_members
 from crumple.structure.hinges.asked import automatic_of
-from crumple.units import format_quantity
+from crumple.units import format_quantity, plain_number
 
 ALONG = np.cos(np.radians(30.0))
 """Cosine of the angle between a blow and a member's axis below which it counts as bending, not crushing."""
@@ -72,9 +74,9 @@ def crushing_cautions(structure: Structure, solved: Solved, *, struck: bool) -> 
         what = f"by the law {law}" if law else "the squash load"
         text = (
             f"{named('Member', list(beyond))} {'carries' if one else 'carry'} up to "
-            f"{max(beyond.values()) / 1e3:.4g} kN along {'its axis' if one else 'their axes'}, and "
-            f"{peak / 1e3:.4g} kN fold the walls ({what}), but nothing in {it} can shorten: axial folding "
-            f"is not modelled. Give {it} hinges with 'axial: {{law: {law or 'superfolding'}}}', "
+            f"{plain_number(max(beyond.values()) / 1e3)} kN along {'its axis' if one else 'their axes'}, and "
+            f"{plain_number(peak / 1e3)} kN fold the walls ({what}), but nothing in {it} can shorten: axial "
+            f"folding is not modelled. Give {it} hinges with 'axial: {{law: {law or 'superfolding'}}}', "
             f"{'' if solved.bending_tried else _bending(structure, beyond)}or solve with shells."
         )
         for member, force in beyond.items():
@@ -125,8 +127,9 @@ def buckling_cautions(structure: Structure, solved: Solved) -> Iterator[Caution]
         text = (
             f"{named('Member', list(found))} {'carries' if len(found) == 1 else 'carry'} up to "
             f"{force / limit:.3g} times the load of Euler between pinned ends ({worst}: "
-            f"{force / 1e3:.4g} kN, {limit / 1e3:.4g} kN). Rigid bars do not buckle: forces and energies may "
-            f"be several times too large; {advice}make the quasi-static stage a slow dynamic one, or solve "
+            f"{plain_number(force / 1e3)} kN, {plain_number(limit / 1e3)} kN). Rigid bars do not buckle: "
+            f"forces and energies may be several times too large; {advice}"
+            "make the quasi-static stage a slow dynamic one, or solve "
             "with shells."
         )
         for member, (force, limit) in found.items():
@@ -181,12 +184,27 @@ def _blows(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:
         force = np.column_stack([channels[f"obstacle.{name}.force.{axis}"] for axis in "xyz"])
         if len(force) < 2:
             continue
-        # the first value is that of one shortest step, not a mean
-        strongest = force[1 + int(np.argmax(np.linalg.norm(force[1:], axis=1)))]
         for member in structure.members:
-            along = abs(float(strongest @ structure.frame_of(member).x))
-            if member not in shortening and along > ALONG * np.linalg.norm(strongest):
+            frame, material = structure.frame_of(member), structure.material_of(member)
+            wave = math.sqrt(material.youngs_modulus / material.density)
+            blow = _strongest(solved.time, force, 2.0 * frame.length / wave)
+            along = abs(float(blow @ frame.x))
+            if member not in shortening and along > ALONG * np.linalg.norm(blow):
                 yield member, along
+
+
+def _strongest(time: Floats, force: Floats, lasting: float) -> Floats:
+    """Largest mean force (3,) over a time in which a blow lasts [s], of means between outputs, (n, 3).
+
+    Where outputs are farther apart, the blow is all of an impact that happened between two of them: the force
+    depends on neither a short nor a long interval.
+    """
+    # the first value is that of one shortest step, not a mean
+    impulse = np.cumsum(np.vstack([np.zeros(3), force[1:] * np.diff(time)[:, None]]), axis=0)
+    ends = np.maximum(time[:-1] + lasting, time[1:])
+    until = np.column_stack([np.interp(ends, time, one) for one in impulse.T])
+    blows = (until - impulse[:-1]) / lasting
+    return np.asarray(blows[int(np.argmax(np.linalg.norm(blows, axis=1)))])
 
 
 def _folding(structure: Structure, member: str) -> tuple[str, float]:

@@ -37,8 +37,12 @@ def folded_over(structure: Structure, solved: Solved) -> Iterator[Caution]:
         The structure and the result of its run.
     """
     bent = {history.hinge.name: bending(history) for history in solved.hinges}
-    passed = {name: first_above(solved.time, values, RIGHT) for name, values in bent.items()}
-    when = {name: time for name, time in passed.items() if time is not None}
+    most = {history.hinge.name: largest_bending(history) for history in solved.hinges}
+    when = {
+        name: first_above(solved.time, values, RIGHT) or float(solved.time[np.argmax(values)])
+        for name, values in bent.items()
+        if most[name] > RIGHT
+    }
     if not when:
         return
     order = sorted(when, key=lambda name: when[name])
@@ -53,7 +57,14 @@ def folded_over(structure: Structure, solved: Solved) -> Iterator[Caution]:
         f"{format_quantity(when[order[0]], 's', 3)}: solve with shells{elastic} or place hinges elsewhere."
     )
     for name in order:
-        yield Caution("folded_over", float(bent[name].max()), RIGHT, "rad", f"hinge {name}", text)
+        yield Caution("folded_over", most[name], RIGHT, "rad", f"hinge {name}", text)
+
+
+def largest_bending(history: HingeHistory) -> float:
+    """Largest bending of a hinge [rad]: over all steps if it does not twist, else over the outputs."""
+    spatial = history.hinge.spatial
+    twists = spatial is not None and Freedom.X in spatial.freedoms
+    return float(bending(history).max(initial=0.0 if twists else history.rotation_max))
 
 
 def bending(history: HingeHistory) -> Floats:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator, Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -32,7 +33,7 @@ from crumple.structure.checks.doubtful import double_members
 from crumple.structure.hinges.lengthening.nodes_met import TOGETHER, supports_met
 from crumple.structure.hinges.spatial_hinges import interaction_of
 from crumple.structure.keys.obstacles import gap
-from crumple.units import format_quantity
+from crumple.units import format_quantity, plain_number
 
 FALL = 1e-3
 """Fall of a dissipated energy over the energy input that counts: the bound of the energy residual, so that
@@ -52,6 +53,20 @@ CRUSHED = 0.01
 says so."""
 USED_UP = 0.95
 """Depth to which an end crumpled over the largest side of its section, above which it cannot go on."""
+AT_OUTPUTS = frozenset(
+    {
+        "axial_compression",
+        "axial_tension",
+        "buckling",
+        "deep_dent",
+        "node_speed",
+        "overloaded_section",
+        "pressed_beyond",
+        "torque_without_twist",
+    }
+)
+"""Cautions whose quantity is known at the outputs alone, as their sentences say: with outputs farther apart
+they may be missing, and means over an impact are larger the closer they are."""
 STRUCK = 0.5
 """Energy lost in rigid impacts relative to the energy input, above which the mean force of the impact is
 compared with the force that folds a member."""
@@ -77,7 +92,7 @@ def physics_cautions(structure: Structure, solved: Solved, *, slow: Collection[s
         return ()
     total = energy_put_in(solved)
     struck = _lost_in_impacts(solved) > STRUCK * total
-    return (
+    found = (
         *falling_energies(solved, total),
         *rebounds(structure, solved),
         *folded_over(structure, solved),
@@ -97,6 +112,9 @@ def physics_cautions(structure: Structure, solved: Solved, *, slow: Collection[s
         *crumpled_ends(structure, solved),
         *deep_dents(solved),
     )
+    every = format_quantity(float(np.diff(solved.time).max()), "s", 3)
+    judged = f" Judged at the outputs, every {every}."
+    return tuple(replace(one, text=one.text + judged) if one.code in AT_OUTPUTS else one for one in found)
 
 
 def falling_energies(solved: Solved, total: float) -> Iterator[Caution]:
@@ -168,9 +186,9 @@ def tensions(structure: Structure, solved: Solved) -> Iterator[Caution]:
                 limit,
                 "N",
                 f"member {member}",
-                f"Member {member} is pulled by up to {force / 1e3:.4g} kN along its axis and yields in "
-                f"tension at {limit / 1e3:.4g} kN, but nothing in it can lengthen: the motion is that of a "
-                "rigid bar. Give it hinges with an axial law, or solve with shells.",
+                f"Member {member} is pulled by up to {plain_number(force / 1e3)} kN along its axis and "
+                f"yields in tension at {plain_number(limit / 1e3)} kN, but nothing in it can lengthen: the "
+                "motion is that of a rigid bar. Give it hinges with an axial law, or solve with shells.",
             )
 
 

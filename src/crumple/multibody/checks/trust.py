@@ -18,12 +18,14 @@ from crumple.multibody.checks.held_parts import held_part_warnings
 from crumple.multibody.checks.names import named
 from crumple.multibody.checks.overlap import overlap_warnings
 from crumple.multibody.checks.physics import energy_put_in
+from crumple.multibody.checks.stuck_drives import loose_drives
 from crumple.multibody.run import Run
 from crumple.result import HingeSummary
 from crumple.structure import PlacedHinge, Structure, dented_tubes, rigid_for_long
+from crumple.structure.checks.partly_driven import driven_assumptions
 from crumple.structure.hinges.elastic_members import IMPACT
 from crumple.text.names import listed
-from crumple.units import format_quantity
+from crumple.units import format_quantity, plain_number
 
 LOST_SHARE = 0.05
 """Share of the energy input that may be lost at the start before a warning is given: a node that is thrown
@@ -58,6 +60,10 @@ SHEARED = (
     "Shear forces leave hinges of closed sections less torque, as their walls carry both; "
     "members do not slip sideways where they yield."
 )
+AT_OUTPUTS = (
+    "Forces in members and on obstacles, speeds of nodes and depths of dents are judged at the outputs: what "
+    "lasts shorter than their interval may have no caution."
+)
 SPATIAL = "The motion is spatial: hinges carry rigidly what is not about their own axes."
 
 
@@ -74,10 +80,12 @@ def assumptions(structure: Structure, solver: Solver, run: Run) -> tuple[str, ..
         _contact(structure),
         *(
             f"End {end.node} of member {end.member} crumples on obstacle {end.obstacle} at "
-            f"{end.force / 1e3:.4g} kN when its whole face is touched."
+            f"{plain_number(end.force / 1e3)} kN when its whole face is touched."
             for end in crumpling_ends(structure)
         ),
         *_dents(structure),
+        *driven_assumptions(structure),
+        *([AT_OUTPUTS] if solver.kernel != "tree" else []),
         *free_parts(link(structure)),
         *solver.notes,
     ]
@@ -177,6 +185,7 @@ def warnings(
     found += broken_warnings(solved.hinges)
     found += overlap_warnings(structure)
     found += held_part_warnings(structure, solved)
+    found += loose_drives(structure, link(structure))
     found += inaccurate(hinges, largest)
     found += [
         f"Material {name}: {spec.statement}" for name, spec in structure.materials.items() if spec.statement
@@ -198,8 +207,8 @@ def warnings(
     if total > 0.0 and stored > ELASTIC_SHARE * total:
         found.append(
             f"The bars are rigid, but the members could store up to {stored:.3g} J elastically "
-            f"({_share(stored / total)}): rotations lack the elastic part and the plastic ones are "
-            f"too large{'' if solved.bending_tried else BEND}."
+            f"({_share(stored / total)}), by their moments at the outputs: rotations lack the elastic part "
+            f"and the plastic ones are too large{'' if solved.bending_tried else BEND}."
         )
     found += _slowed(solved)
     if solved.forced:

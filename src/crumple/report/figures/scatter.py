@@ -23,6 +23,7 @@ from crumple.report.figures.curves import over_time, ranked_hinges
 from crumple.report.wording.scatter import scatter_sentences
 from crumple.result import Result
 from crumple.result.scatter import Scatter, Swing
+from crumple.units import plain_number
 
 MOST_BANDS = 4
 """Channels drawn with their band; bands.csv has all."""
@@ -94,7 +95,10 @@ def _tornado(swings: list[Swing], figure_name: str) -> str:
         f"{short(swings[0].response, 30)}, {unit}" if unit else short(swings[0].response, 30), color=MUTED
     )
     text = f"{swings[0].response} with one number at either end of its scatter: "
-    text += ", ".join(f"{s.variable} {s.low / factor:.4g} to {s.high / factor:.4g} {unit}" for s in swings)
+    text += ", ".join(
+        f"{s.variable} {plain_number(s.low / factor)} to {plain_number(s.high / factor)} {unit}"
+        for s in swings
+    )
     return to_svg(figure, figure_name, f"{text}. First colour: lower value of the number.")
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from crumple.numeric.ranking import largest_first
 from crumple.report.wording.wording import degrees, percent
 from crumple.result import Result
@@ -10,7 +12,8 @@ from crumple.units import format_quantity
 MATTERS = 0.1
 """Energy of crushing over that of all hinges from which it is what is said first."""
 ROUNDING = 1e-3
-"""Part of the absorbed energy that is not worth a word where hinges and dents did not take it."""
+"""Part of the energy that the structure absorbed or stored that is not worth a word where hinges and dents
+did not take it: members that only vibrate lose a little in the dampers beside their springs."""
 
 
 def key_figures(result: Result) -> list[tuple[str, str, str]]:
@@ -52,7 +55,9 @@ def between_hinges(result: Result) -> float:
         return 0.0
     absorbed = float(channel.values[-1])
     folded = sum(hinge.energy for hinge in result.hinges.values()) + sum(dent.energy for dent in result.dents)
-    return absorbed - folded if absorbed - folded > ROUNDING * absorbed else 0.0
+    elastic = result.channels.get("energy.elastic")
+    stored = 0.0 if elastic is None else float(np.nanmax(elastic.values, initial=0.0))
+    return absorbed - folded if absorbed - folded > ROUNDING * (absorbed + stored) else 0.0
 
 
 def crush_matters(result: Result) -> bool:

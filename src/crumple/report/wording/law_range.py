@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from crumple.report.drawing.scales import display_unit
 from crumple.report.wording.wording import Table
 from crumple.result import Result
+from crumple.units import plain_number
 
 if TYPE_CHECKING:
     from crumple.comparison import Comparison
@@ -41,7 +42,7 @@ class _Range:
 
     def shown(self, value: float) -> str:
         """A value in the unit of display."""
-        return f"{value / self.display[1] if abs(value) > self.nothing else 0.0:.4g}"
+        return plain_number(value / self.display[1] if abs(value) > self.nothing else 0.0)
 
     @property
     def row(self) -> tuple[str, str, str, str, str]:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from crumple.report.drawing.scales import display_unit
 from crumple.result import Result
 from crumple.result.scatter import Chance, Judged
+from crumple.units import plain_number
 
 
 def sentences(result: Result) -> list[str]:
@@ -68,5 +69,5 @@ def _chance(chance: Chance) -> str:
 
 def _quantity(value: float, si: str) -> str:
     unit, factor = ("°", math.radians(1.0)) if si == "rad" else display_unit(si, value)
-    text = f"{value / factor:.4g}"
+    text = plain_number(value / factor)
     return text + unit if unit == "°" else f"{text} {unit}".strip()

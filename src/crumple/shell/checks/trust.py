@@ -19,6 +19,7 @@ from crumple.shell.model.model import ShellCase
 from crumple.shell.model.obstacles import too_sharp
 from crumple.shell.model.places import Span
 from crumple.structure import ShellSettings, Stage, Structure
+from crumple.structure.checks.partly_driven import driven_assumptions
 from crumple.structure.hinges.places import hinge_places
 
 LOST_SHARE = 5e-3
@@ -74,6 +75,7 @@ def assumptions(structure: Structure, case: ShellCase, settings: ShellSettings) 
             )
         elif joint.is_body:
             found.append(f"The section at node {node} is rigid.")
+    found += driven_assumptions(structure)
     found += weld_assumptions(structure, case)
     for name, member in structure.members.items():
         length = structure.frame_of(name).length

@@ -9,7 +9,8 @@ Nothing is refused for them.  The ranges are wide, so that whoever is outside of
 - Largest side of a section 1 mm to 10 m: from a capillary to a box girder.
 - Length of a member 1 mm to 1 km: bars between hinges are longer than their folds; no frame has a longer one.
 - Mass of a lump or obstacle up to 100 000 t: a loaded ship.  Small ones do no harm.
-- Speed up to 500 m/s: above it shock waves in the metal matter, which neither solver has.
+- Speed up to 500 m/s: above it shock waves in the metal matter, which neither solver has.  Of an initial
+  rotation the speed of the fastest node counts: the blades of a gas turbine have 400 m/s at their tips.
 - Gravity up to 5000 m/s2: 500 g stand for a hard pulse; 9810 is the number in mm/s2.
 - Duration 10 microseconds to 1 h: waves cross a section in the former; creep, which no law has, begins to
   matter in the latter.
@@ -23,6 +24,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from crumple.structure.keys.motion import InitialVelocity
 from crumple.structure.parts import StructureParts
 from crumple.text.names import listed
 from crumple.units import format_quantity
@@ -40,6 +42,8 @@ class Usual:
     low: float
     high: float
     values: Callable[[StructureParts, float], Found]
+    whose: str = ""
+    """Behind the value, where it is not that of the key itself."""
 
 
 @dataclass(frozen=True)
@@ -93,9 +97,30 @@ def _masses(structure: StructureParts, duration: float) -> Found:
 
 def _speeds(structure: StructureParts, duration: float) -> Found:
     for i, field in enumerate(structure.initial_velocity):
-        yield f"initial_velocity[{i}].translation", math.hypot(*field.translation)
+        if not field.rotation:
+            yield f"initial_velocity[{i}].translation", math.hypot(*field.translation)
     for name, obstacle in structure.obstacles.items():
         yield f"obstacles.{name}.velocity", math.hypot(*obstacle.velocity)
+
+
+def _tip_speeds(structure: StructureParts, duration: float) -> Found:
+    for i, field in enumerate(structure.initial_velocity):
+        if field.rotation:
+            places = (np.asarray(structure.nodes[node], float) for node in _moved(structure, field))
+            fastest = max((float(np.linalg.norm(field.at(place))) for place in places), default=0.0)
+            yield f"initial_velocity[{i}].rotation", fastest
+
+
+def _moved(structure: StructureParts, field: InitialVelocity) -> set[str]:
+    """Nodes that a field moves, and the far ends of members, which turn with a node that it names."""
+    if field.everywhere:
+        return set(structure.nodes)
+    named = set(field.nodes or ())
+    members = set(field.members or ())
+    ends = [
+        spec.nodes for name, spec in structure.members.items() if name in members or named & set(spec.nodes)
+    ]
+    return named.union(*ends)
 
 
 USUAL = (
@@ -109,6 +134,7 @@ USUAL = (
     Usual("the length of a member", "m", 1e-3, 1e3, _lengths),
     Usual("a mass", "kg", 0.0, 1e8, _masses),
     Usual("the speed of a crash", "m/s", 0.0, 500.0, _speeds),
+    Usual("the speed of a crash", "m/s", 0.0, 500.0, _tip_speeds, " at the fastest node"),
     Usual("gravity", "m/s^2", 0.0, 5e3, lambda s, _: iter([("gravity", math.hypot(*s.gravity))])),
     Usual("the duration of a crash", "s", 1e-5, 3600.0, lambda _, t: iter([("analysis.duration", t)])),
 )
@@ -137,7 +163,10 @@ def unusual_values(structure: StructureParts, duration: float) -> tuple[Unusual,
             allowed = f"{low} to {high}" if usual.low > 0.0 else f"at most {high}"
             others = list(outside)[1:]
             more = f" (so are {listed(others)})" if others else ""
-            text = f"{place}: {came} is far from usual{more}; {usual.what} is {allowed}. Check its unit."
+            text = (
+                f"{place}: {came}{usual.whose} is far from usual{more}; {usual.what} is {allowed}. "
+                "Check its unit."
+            )
             limit = usual.low if value < usual.low else usual.high
             found.append(Unusual(place, value, limit, usual.unit, text))
     return tuple(found)

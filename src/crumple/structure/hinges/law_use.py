@@ -23,7 +23,7 @@ from crumple.structure.hinges.corners import corners
 from crumple.structure.hinges.elastic_members import with_elastic_members
 from crumple.structure.hinges.hinges import plastic_hinges
 from crumple.structure.hinges.law_choice import automatic_law, stored_texts
-from crumple.structure.hinges.places import HingePlace, has_clamped_law, hinge_places, law_of
+from crumple.structure.hinges.places import HingePlace, has_clamped_law, hinge_places, law_of, law_spec
 from crumple.structure.hinges.shares import about_axis, axes_of
 from crumple.structure.hinges.stored_loads import texts_of_loads
 from crumple.structure.hinges.t_joints import TPlace, t_joint_name, t_laws, t_places
@@ -49,6 +49,20 @@ def _law_uses(structure: StructureParts) -> dict[str, LawUse]:
         hinge.name: law_use(structure, places[hinge.name], hinge.law, hinge.record)
         for hinge in plastic_hinges(structure)
     }
+
+
+def law_types_of(structure: StructureParts) -> dict[str, str]:
+    """Type of the law of every hinge, by name, such as ``kecman`` or ``library``; no law is built.
+
+    A hinge with other laws about its second axis has both: ``library about y, kecman about z``.
+    """
+    found = {}
+    for place in hinge_places(structure):
+        about = {axis: law_spec(structure, about_axis(place, axis)).type for axis in axes_of(place)}
+        alike = len(set(about.values())) == 1
+        each = ", ".join(f"{kind} about {axis}" for axis, kind in about.items())
+        found[place.name] = next(iter(about.values())) if alike else each
+    return found
 
 
 def law_use_about(structure: StructureParts) -> Callable[[str, Axis], LawUse]:

@@ -64,7 +64,7 @@ class Support(Spec):
     fix: Annotated[Fixed, BeforeValidator(_known_freedoms, json_schema_input_type=Fixed)] = ()
     """Fixed degrees of freedom: all (a clamp), pin (displacements), or a list of x, y, z, rx, ry, rz."""
     motion: Motion = Motion()
-    """Prescribed motion instead of fixed degrees of freedom."""
+    """Prescribed motion instead of fixed degrees of freedom; what neither it nor `fix` names stays free."""
 
     @model_validator(mode="after")
     def _holds_something(self) -> Support:

@@ -8,11 +8,11 @@ from typing import Literal
 from pydantic import model_validator
 
 from crumple.registry.quantity import (
+    Duration,
     Length,
     PositiveEnergy,
     PositiveForce,
     PositiveLength,
-    PositiveTime,
 )
 from crumple.registry.refusal import refuse
 from crumple.structure.keys.load import NodalImpulse
@@ -81,7 +81,7 @@ class Stage(Spec):
     """Name, unique in the sequence."""
     kind: Literal["dynamic", "quasi-static"] = "dynamic"
     """With inertia, or quasi-static, without inertia."""
-    duration: PositiveTime
+    duration: Duration
     """Time after which it ends at the latest."""
     until: tuple[Until, ...] = ()
     """Conditions; the first that is met ends it."""

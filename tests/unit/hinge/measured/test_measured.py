@@ -69,6 +69,14 @@ def test_noisy_specimens():
     np.testing.assert_allclose(band.mean[beyond], capacity(band.abscissa[beyond]), rtol=0.03)
 
 
+def test_a_curve_without_a_plastic_part_says_why():
+    rotation, moment = [0.0, 0.01, 0.02, 0.3], [0.0, 500.0, 1000.0, 0.0]
+    with pytest.raises(InputError, match="falls to 0"):
+        measured_band([(rotation, moment)], elastic_stiffness=50e3)
+    with pytest.raises(InputError, match="lies on the elastic line to its end"):
+        measured_band([(rotation[:3], moment[:3])], elastic_stiffness=50e3)
+
+
 def test_band_ends_with_the_shortest_specimen():
     short = tuple(values[:200] for values in specimen())
     band = measured_band([specimen(), short])

@@ -1,3 +1,5 @@
+import re
+
 import numpy as np
 import pytest
 
@@ -87,13 +89,44 @@ def test_scatter_and_unloading_are_left_out():
 
 
 def test_rise_without_points_needs_a_stiffness():
-    with pytest.raises(InputError, match="fewer than two points"):
+    with pytest.raises(InputError, match="elastic rise cannot be found"):
         plastic_part([0.0, 0.02, 0.3], [0.0, 1000.0, 500.0])
-    with pytest.raises(InputError, match="elastic line"):
+    with pytest.raises(InputError, match="leave it out: then"):
         plastic_part(*measured(slack=0.0), 500e3)
     for stiffness in (0.0, -1.0, np.inf, np.nan):
         with pytest.raises(InputError, match="stiffness must be positive"):
             plastic_part(*measured(slack=0.0), stiffness)
+
+
+COARSE = [0.0, 0.05, 0.09, 0.35], [0.0, 1600.0, 1700.0, 800.0]
+"""A test without points between 20 and 60 % of its peak."""
+
+
+@pytest.mark.parametrize("given", [None, 60e3, 1e9])
+def test_what_a_refused_stiffness_asks_for_is_accepted(given):
+    """Leaving the stiffness out asks for one, and a steep one for the steepest that the curve has."""
+    with pytest.raises(InputError) as refusal:
+        plastic_part(*COARSE, given)
+    (problem,) = refusal.value.problems
+    written = re.search(r"elastic_stiffness: ([0-9.]+) kN\*m/rad", problem.todo)
+    assert float(written[1]) == 32.0
+    assert "leave it out: then" not in problem.todo
+    plastic, capacity, stiffness = plastic_part(*COARSE, 1e3 * float(written[1]))
+    assert (plastic[0], capacity[0], stiffness) == (0.0, 1600.0, 32e3)
+
+
+def test_a_rise_that_falls_is_none():
+    with pytest.raises(InputError, match="elastic rise cannot be found"):
+        plastic_part([0.0, 0.01, 0.02, 0.03, 0.3], [0.0, 500.0, 400.0, 1000.0, 500.0])
+
+
+def test_a_curve_that_begins_with_a_moment_takes_any_stiffness():
+    begun = [0.0, 0.1, 0.3], [1600.0, 1500.0, 800.0]
+    with pytest.raises(InputError, match="'type: table' without 'remove_elastic'; or give elastic_stiffness"):
+        plastic_part(*begun)
+    for stiffness in (5e3, 1e9):
+        assert plastic_part(*begun, stiffness)[1][0] == 1600.0
+    assert build_law("table", TUBE, STEEL, rotation=begun[0], moment=begun[1]).moment_capacity(0.0) == 1600.0
 
 
 def test_law_of_a_measured_curve():
@@ -104,7 +137,7 @@ def test_law_of_a_measured_curve():
     assert law.rate is not None
     assert build_law("table", TUBE, STEEL, rotation=[0.0], moment=[1.0], static=False).rate is None
     # as it came, the curve starts at zero moment, which is no capacity
-    with pytest.raises(InputError, match="elastic rise"):
+    with pytest.raises(InputError, match="'remove_elastic: true'"):
         build_law("table", TUBE, STEEL, rotation=rotation - rotation[0], moment=moment)
 
 

@@ -92,12 +92,12 @@ def test_a_joint_that_turns_freely_is_no_hinge():
     assert not about(result)
 
 
-def hinge(name, freedoms, **columns):
-    """A history of three outputs, in rad; of a plane without freedoms."""
+def hinge(name, freedoms, rotation_max=0.0, **columns):
+    """A history of three outputs, in rad; of a plane without freedoms; the largest rotation of all steps."""
     spatial = None if freedoms is None else SimpleNamespace(freedoms=freedoms)
     own = {key.replace("_", "."): np.array(values) for key, values in columns.items()}
     place = SimpleNamespace(name=name, member="m", spatial=spatial)
-    return SimpleNamespace(hinge=place, columns=own, values=own.__getitem__)
+    return SimpleNamespace(hinge=place, columns=own, values=own.__getitem__, rotation_max=rotation_max)
 
 
 def found_in(*hinges):
@@ -116,11 +116,21 @@ def test_several_hinges_have_one_sentence_in_the_order_of_their_times():
     assert "Do not trust the result after 5 ms: solve with shells or place" in first.text
 
 
+@pytest.mark.parametrize("freedoms", [None, (Freedom.Y,), (Freedom.AXIAL, Freedom.Z), (Freedom.Y, Freedom.Z)])
+def test_a_right_angle_that_is_passed_between_two_outputs_counts(freedoms):
+    """Whatever the interval of the outputs: the stepper keeps the largest rotation of all steps."""
+    turned = {"rotation": [0.0, 1.5, 1.4]}
+    (bent,) = found_in(hinge("h", freedoms, 1.6, **turned))
+    assert bent.value == 1.6
+    assert "Hinge h (at 10 ms) bent past 90 deg" in bent.text
+    assert not found_in(hinge("h", freedoms, 1.57, **turned))
+
+
 def test_twist_does_not_count():
     turned, still = [0.0, 3.0, 3.0], [0.0, 0.0, 0.0]
-    assert not found_in(hinge("only", (Freedom.X,), rotation=turned))
+    assert not found_in(hinge("only", (Freedom.X,), 3.0, rotation=turned))
     both = {"rotation": turned, "rotation_x": turned, "rotation_y": still, "rotation_z": still}
-    assert not found_in(hinge("both", (Freedom.X, Freedom.Y, Freedom.Z), **both))
+    assert not found_in(hinge("both", (Freedom.X, Freedom.Y, Freedom.Z), 3.0, **both))
     # of two axes the length of the vector counts: each below a right angle
     (bent,) = found_in(
         hinge("b", (Freedom.Y, Freedom.Z), rotation_y=[0.0, 1.2, 0.0], rotation_z=[0.0, 1.5, 0.0])

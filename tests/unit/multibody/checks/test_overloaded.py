@@ -64,7 +64,8 @@ def test_the_use_is_the_moment_over_the_plastic_one():
     (sentence,) = (text for text in result.warnings if "would fold" in text)
     assert "left_frame, right_frame" in sentence
     assert sentence.endswith(
-        "Write 'hinges: auto', or let members bend with analysis.multibody.members: elastic."
+        "Write 'hinges: auto', or let members bend with analysis.multibody.members: elastic. Judged at the "
+        "outputs, every 500 µs."
     )
 
 
@@ -124,4 +125,6 @@ def test_a_hinge_beyond_the_reach_of_the_joint_stands_for_the_fold(monkeypatch):
     cautions, result = found(braced(), members="elastic")
     assert cautions["member br"] > 1.2
     (sentence,) = (text for text in result.warnings if "would fold" in text)
-    assert sentence.endswith("they would fold there. Give a hinge there with 'hinges'.")
+    assert sentence.endswith(
+        "they would fold there. Give a hinge there with 'hinges'. Judged at the outputs, every 500 µs."
+    )

@@ -14,7 +14,7 @@ from crumple.multibody.answer.solved import HingeHistory
 from crumple.multibody.checks.trust import inaccurate
 from crumple.report.wording.wording import outside_range
 from crumple.result import Result
-from crumple.structure import Structure, placed_hinges
+from crumple.structure import MultibodySettings, Structure, placed_hinges
 
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "density": 7850.0, "yield_stress": 488e6}
 TUBE = {"type": "rectangular_tube", "width": 0.05, "depth": 0.025, "thickness": 0.00265}
@@ -272,3 +272,27 @@ def test_estimated_errors_count_beyond_a_hundredth_and_a_floor(largest, errors, 
     texts = inaccurate(hinges, largest)
     assert len(texts) == bool(said)
     assert all(said in text for text in texts)
+
+
+@pytest.mark.parametrize("form", ["set-valued", "elastic-plastic"])
+@pytest.mark.parametrize("kernel", ["tree", "spatial"])
+def test_a_rotation_that_is_turned_back_between_outputs_is_judged(form: str, kernel: str) -> None:
+    """The tip is driven up by 0.9 m and back: outputs at both ends alone see none of 66 deg."""
+    law = {"type": "kecman", "form": form}
+    bar = {"section": "tube", "material": "steel", "hinges": [{"name": "root", "at": "root", "law": law}]}
+    drive = {"z": {"table": {"time": (0.0, 0.1, 0.2), "value": (0.0, 0.9, 0.0)}}}
+    structure = Structure(
+        materials={"steel": STEEL},
+        sections={"tube": TUBE},
+        nodes={"root": (0.0, 0.0, 0.0), "tip": (1.0, 0.0, 0.0)},
+        members={"tube": {"nodes": ("root", "tip"), **bar}},
+        supports={"clamp": {"node": "root", "fix": "all"}, "push": {"node": "tip", "motion": drive}},
+    )
+    settings = MultibodySettings(members="rigid", kernel=kernel)
+    fine, coarse = (solve_multibody(structure, Run(0.2, every, settings)) for every in (0.002, 0.2))
+    told = [text for text in coarse.assumptions if text.endswith("than their interval may have no caution.")]
+    assert len(told) == (kernel == "spatial")
+    assert abs(coarse["hinge.root.plastic_rotation"]).max() < 0.1
+    assert [one.code for one in coarse.cautions] == [one.code for one in fine.cautions] == ["beyond_jamming"]
+    assert coarse.cautions[0].text == fine.cautions[0].text
+    assert coarse.hinges["root"].law_rotation == pytest.approx(fine.hinges["root"].law_rotation, rel=1e-4)

@@ -173,6 +173,10 @@ def test_the_mean_force_is_the_work_over_the_longest_path():
         svg = over_path("f", ("Force", "N"), x, np.array([0.0, 300.0, 300.0, 0.0]))
         assert over_path("f", ("Force", "N"), -x, x) is None
     assert "mean 225" in svg
+    with drawing():
+        large = over_path("f", ("Force", "N"), x, 3e4 * np.array([0.0, 300.0, 300.0, 0.0]))
+    assert "mean 6750" in large
+    assert "peak 9000" in large
     assert "peak 300" in svg
 
 

@@ -38,6 +38,10 @@ CHANGES = {
     "length of a member": ("[2 m,", "[2000 m,"),
     "mass": ("10 kg}", "1e9 kg}"),
     "speed": ("5 m/s]", "600 m/s]"),
+    "at the fastest node": (
+        "translation: [0 m/s, 0 m/s, 5 m/s]",
+        "rotation: 9000 rad/s, about: [0 m, 0 m, 0 m], axis: [0, -1, 0]",
+    ),
     "gravity": ("-9.81 m/s^2", "-9810 m/s^2"),
     "duration": ("duration: 10 ms", "duration: 1e6 s"),
 }
@@ -66,6 +70,18 @@ def test_alike_values_have_one_sentence():
     (one,) = found(BAR.replace("[1 m,", "[2000 m,").replace("[2 m,", "[4000 m,"))
     assert one.text.startswith("members.ab: 2000 m is far from usual (so are members.bc)")
     assert (one.value, one.limit, one.unit) == (2000.0, 1000.0, "m")
+
+
+def test_of_a_rotation_the_speed_of_the_fastest_node_counts():
+    """A node that is named turns its members: their far ends are a metre away."""
+    moved = "translation: [0 m/s, 0 m/s, 5 m/s]"
+    spin = "rotation: 9000 rad/s, about: [1 m, 0 m, 0 m], axis: [0, -1, 0]"
+    (one,) = found(BAR.replace(moved, f"{spin}, nodes: [b]"))
+    assert one.text == (
+        "initial_velocity[0].rotation: 9000 m/s at the fastest node is far from usual; the speed of a crash "
+        "is at most 500 m/s. Check its unit."
+    )
+    assert found(BAR.replace(moved, f"{spin.replace('9000', '200')}, members: [bc]")) == ()
 
 
 def test_the_result_has_a_caution_and_the_commands_say_it(tmp_path):

@@ -14,6 +14,7 @@ from crumple.report.drawing.window import happening
 from crumple.report.figures.curves import panel
 from crumple.result import Result
 from crumple.structure import Obstacle, Structure
+from crumple.units import plain_number
 
 MOST = 4
 """Drives, and obstacles, with figures: those with the largest forces."""
@@ -82,8 +83,15 @@ def over_path(
     lines = [Line("", x, y, 0)]
     if peak > 0.0 and mean > 0.0:
         reach = np.array([0.0, x[last]])
-        lines += [Line(f"mean {mean:.3g}", reach, np.full(2, mean), 1)]
-        lines += [Line(f"peak {peak:.3g}", x[int(np.argmax(y[: last + 1]))] + 0 * reach, np.full(2, peak), 2)]
+        lines += [Line(f"mean {plain_number(mean, 3)}", reach, np.full(2, mean), 1)]
+        lines += [
+            Line(
+                f"peak {plain_number(peak, 3)}",
+                x[int(np.argmax(y[: last + 1]))] + 0 * reach,
+                np.full(2, peak),
+                2,
+            )
+        ]
     text = f"{quantity[0]} over {x_name}, unfiltered, with its mean and its peak."
     return panel(figure, text, lines, (f"{x_name}, {x_unit}", f"{quantity[0]}, {unit}"))
 
