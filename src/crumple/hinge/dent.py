@@ -153,7 +153,7 @@ def left_in_bending(
     depth: float,
     moment: float,
     spans: tuple[float, float],
-    held: tuple[bool, bool],
+    held: tuple[float, float],
 ) -> float:
     """Share of the plastic moment that is left where a force dents and bends a tube.
 
@@ -168,7 +168,7 @@ def left_in_bending(
     spans
         Distances of the force from what holds the tube on both sides [m].
     held
-        Whether the tube carries its moment there.
+        Share of M_p that is carried there, 0 to 1 each.
 
     Returns
     -------

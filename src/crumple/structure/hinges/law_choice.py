@@ -8,7 +8,8 @@ from crumple.hinge.bending.estimate import automatic_type
 from crumple.hinge.law import HingeLaw
 from crumple.hinge.measured.library import by_place
 from crumple.hinge.measured.place_hash import Load, place_hash
-from crumple.hinge.registry import AUTO, Fold, build_law
+from crumple.hinge.measured.stored import bounded
+from crumple.hinge.registry import AUTO, Fold, build_law, law_options
 from crumple.material import Material
 from crumple.section import Axis, Section
 from crumple.structure.keys.law import LawKeys, LawReference
@@ -93,3 +94,19 @@ def formula(kind: str, section: Section, material: Material, axis: Axis) -> Hing
 def plain_law(kind: str) -> LawKeys:
     """A law of a type with its defaults."""
     return LawKeys(type=kind)
+
+
+# a law is a pure function of these four: the hinges of a chain and the runs of a study share it
+@remembered(KEPT)
+def made_law(section: Section, material: Material, axis: Axis, spec: LawKeys) -> HingeLaw:
+    """Law of keys for a section, a material and an axis of bending."""
+    given = {name: value for name, value in spec.own.items() if value is not None}
+    options = set(law_options(spec.type))
+    if "elastic_stiffness" in options and not isinstance(spec.elastic_stiffness, str):
+        given["elastic_stiffness"] = spec.elastic_stiffness
+    law = (
+        build_law(spec.type, section, material, axis, **given)
+        if given
+        else formula(spec.type, section, material, axis)
+    )
+    return bounded(law, spec.bound)

@@ -8,15 +8,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from crumple import hinge
 from crumple.hinge import HingeLaw
 from crumple.hinge.registry import Fold
-from crumple.material import Material
-from crumple.section import Axis, Section, fold_distance
+from crumple.section import Axis, fold_distance
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges.asked import where_automatic
 from crumple.structure.hinges.automatic import fold_of, hinges_of
-from crumple.structure.hinges.law_choice import CLAMPED, automatic_law, chosen_law, formula, plain_law
+from crumple.structure.hinges.law_choice import CLAMPED, automatic_law, chosen_law, made_law, plain_law
 from crumple.structure.hinges.runs.ends import holds_rotation
 from crumple.structure.hinges.struck_folds import with_dent
 from crumple.structure.keys.hinge_axes import HingeAxes
@@ -161,7 +159,7 @@ def law_of(structure: StructureParts, place: HingePlace) -> HingeLaw:
 
     def build() -> HingeLaw:
         section, material = structure.section_of(place.member), structure.material_of(place.member)
-        return _law(section, material, place.axis, law_spec(structure, place))
+        return made_law(section, material, place.axis, law_spec(structure, place))
 
     alike = alike_law(structure, place)
     law = build() if alike is None else structure.kept.once("law", alike, build)
@@ -178,18 +176,3 @@ def alike_law(structure: StructureParts, place: HingePlace) -> tuple[str, str, A
         return None
     fold = fold_of(structure, place.member, place.name)
     return (spec.section, spec.material, place.axis, place.law, fold)
-
-
-# a law is a pure function of these four: the hinges of a chain and the runs of a study share it
-@remembered(MADE)
-def _law(section: Section, material: Material, axis: Axis, spec: LawKeys) -> HingeLaw:
-    given = {name: value for name, value in spec.own.items() if value is not None}
-    options = set(hinge.law_options(spec.type))
-    if "elastic_stiffness" in options and not isinstance(spec.elastic_stiffness, str):
-        given["elastic_stiffness"] = spec.elastic_stiffness
-    law = (
-        hinge.build_law(spec.type, section, material, axis, **given)
-        if given
-        else formula(spec.type, section, material, axis)
-    )
-    return hinge.bounded(law, spec.bound)

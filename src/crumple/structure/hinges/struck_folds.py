@@ -14,13 +14,18 @@ import numpy as np
 from crumple.hinge import HingeLaw
 from crumple.hinge.bending.dented import DentedLaw
 from crumple.hinge.dent import Dent, dent_of, left_in_bending
+from crumple.hinge.registry import AUTO
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import AXES, Axis, CircularTube, RectangularTube, half_fold_length
 from crumple.structure.hinges.automatic import strikes_on
-from crumple.structure.hinges.law_choice import automatic_law
-from crumple.structure.hinges.runs.straight_runs import straight_run
-from crumple.structure.keys.law import LawReference
+from crumple.structure.hinges.corner_laws import corner_laws
+from crumple.structure.hinges.corners import leaving
+from crumple.structure.hinges.law_choice import automatic_law, chosen_law, made_law, plain_law
+from crumple.structure.hinges.runs.candidates import Strike
+from crumple.structure.hinges.runs.ends import holds_rotation
+from crumple.structure.hinges.runs.straight_runs import StraightRun, straight_run
+from crumple.structure.keys.law import LawKeys, LawReference
 from crumple.structure.keys.obstacles import CylinderObstacle, SphereObstacle
 from crumple.structure.parts import StructureParts
 from crumple.structure.struck_places import StruckPlace, struck_places, travel_to_joints
@@ -32,6 +37,10 @@ ACROSS = math.sin(math.radians(60.0))
 SQUARE = math.cos(math.radians(20.0))
 """Least cosine of the angle between a force and the normal of the wall that it dents, and of those between
 the forces of one obstacle on several tubes."""
+
+
+FIRST_BENDING = 0.1
+"""Rotation up to which what holds a tube must carry more than the tube, for a dent to grow on [rad]."""
 
 
 def with_dent(
@@ -60,16 +69,73 @@ def with_dent(
     if strike is None or automatic_law(structure, reference) is None:
         return law
     across = structure.frame_of(member).axis("z" if axis == "y" else "y")
-    run = straight_run(structure, member).stretches
+    run = straight_run(structure, member)
     for tube in (tube for obstacle in strike.obstacles for tube in dented_tubes(structure, obstacle)):
         bends = isinstance(section, CircularTube) or abs(float(tube.outwards @ across)) >= SQUARE
-        if tube.member in run and bends:
+        if tube.member in run.stretches and bends:
             # the struck wall is compressed: +z by a negative rotation about y, +y by a positive one about z
             sense = 1 if (float(tube.outwards @ across) > 0.0) == (axis == "z") else -1
             material, moment = _metal(structure, member), float(law.moment_capacity(0.0, sense))
-            left = left_in_bending(section, material, tube.depth, moment, strike.spans, strike.held)
+            press = _Press(run, structure.frame_of(member).axis(axis), tube.outwards)
+            held = _held(structure, press, strike, moment)
+            left = left_in_bending(section, material, tube.depth, moment, strike.spans, held)
             return DentedLaw(law, left)
     return law
+
+
+@dataclass(frozen=True)
+class _Press:
+    """A tube that a dent bends: its straight run, about which direction, and where the obstacle is, (3,)."""
+
+    run: StraightRun
+    about: Floats
+    outwards: Floats
+
+
+def _held(structure: StructureParts, press: _Press, strike: Strike, moment: float) -> tuple[float, float]:
+    """Shares of a moment [N m] that both ends of a run carry."""
+    first, last = (
+        min(1.0, _carried(structure, press, node) / moment) if holds else 0.0
+        for node, holds in zip(press.run.nodes, strike.held, strict=True)
+    )
+    return first, last
+
+
+def _carried(structure: StructureParts, press: _Press, node: str) -> float:
+    """Moment [N m] that a support, the corner or other members carry at an end of a run."""
+    if holds_rotation(structure, node, press.about):
+        return math.inf
+    corner, keys = corner_laws(structure).get(node, (None, None))
+    if (
+        corner is not None
+        and keys is not None
+        and abs(float(press.about @ np.array(corner.normal))) >= SQUARE
+    ):
+        other = corner.second if corner.first in press.run.stretches else corner.first
+        # pressed towards the other member, the run turns away from it at the corner
+        opens = float(leaving(structure, other, node) @ press.outwards) > 0.0
+        return _most(structure, corner.first, corner.axis, keys, -corner.sense if opens else corner.sense)
+    others = [name for name in structure.members_at.get(node, ()) if name not in press.run.stretches]
+    return sum(_beside_a_joint(structure, name, press.about) for name in others)
+
+
+def _beside_a_joint(structure: StructureParts, member: str, about: Floats) -> float:
+    """Moment [N m] that a member carries beside a joint about a direction; if it is twisted, any."""
+    frame, plain = structure.frame_of(member), plain_law(AUTO)
+    if abs(float(about @ frame.x)) >= SQUARE:
+        return math.inf
+    parts = []
+    for axis in AXES:
+        keys = chosen_law(structure, member, axis, plain, "clamped")
+        most = min(_most(structure, member, axis, keys, sense) for sense in (1, -1))
+        parts.append(float(about @ frame.axis(axis)) * most)
+    return math.hypot(*parts)
+
+
+def _most(structure: StructureParts, member: str, axis: Axis, keys: LawKeys, sense: int) -> float:
+    """Largest moment [N m] of a law in a sense up to the rotation of a first bending."""
+    law = made_law(structure.section_of(member), structure.material_of(member), axis, keys)
+    return float(law.moment_capacity(np.linspace(0.0, FIRST_BENDING, 21), sense).max())
 
 
 @dataclass(frozen=True, eq=False)

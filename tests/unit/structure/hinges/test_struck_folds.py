@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from crumple import loads
@@ -218,3 +219,52 @@ def test_a_struck_hat_bends_with_its_crown_compressed(roll):
         for sense, moment in moments.items()
     }
     assert law.left == left[-1] != left[1]
+
+
+def _left(structure):
+    """Share of the moment that the beam's dent leaves, its strike, and its moment [N m]."""
+    (law,) = [hinge.law for hinge in plastic_hinges(structure) if isinstance(hinge.law, DentedLaw)]
+    return law.left, strikes_on(structure, "beam")["beam-pole"], float(law.law.moment_capacity(0.0))
+
+
+def _largest(law, sense=1):
+    return float(law.moment_capacity(np.linspace(0.0, 0.1, 21), sense).max())
+
+
+@pytest.mark.parametrize("thickness", [2.0, 1.0])
+def test_an_end_carries_no_more_than_what_holds_it(thickness):
+    """A beam on a weak post bends before it is dented as deep as between clamps, and keeps more moment."""
+    thin = f"  thin: {{type: circular_tube, diameter: 40 mm, thickness: {thickness} mm}}\n  round:"
+    post = "post: {nodes: [low, left], section: "
+    text = TEXT.replace("  round:", thin, 1).replace(post + "round", post + "thin")
+    structure = loads(
+        text.replace("SECTION", "round").replace("OBSTACLE", HIGH).replace("LOWER", "0")
+    ).structure
+    left, strike, moment = _left(structure)
+    (law,) = [hinge.law for hinge in plastic_hinges(structure) if hinge.name == "post-left"]
+    section, steel = structure.section_of("beam"), structure.material_of("beam")
+    # the beam's first node is on the post, the last one clamped
+    share = _largest(law) / moment
+    assert share < 0.5
+    assert left == pytest.approx(left_in_bending(section, steel, 60e-3, moment, strike.spans, (share, 1.0)))
+    assert left > 1.05 * left_in_bending(section, steel, 60e-3, moment, strike.spans, (1.0, 1.0))
+
+
+@pytest.mark.parametrize(("above", "closes"), [(True, True), (False, False)])
+def test_a_corner_carries_the_moment_of_its_law_in_its_sense(above, closes):
+    """Pressed from outside, the beam closes its corner with the post below; from inside it opens it."""
+    below = HIGH.replace("90", "-90")
+    text = (
+        TEXT.replace("SECTION", "round").replace("LOWER", "0").replace("OBSTACLE", HIGH if above else below)
+    )
+    if not above:
+        text = text.replace("-5 m/s], guide: [0, 0, -1]", "5 m/s], guide: [0, 0, 1]")
+    structure = loads(text).structure
+    left, strike, moment = _left(structure)
+    (corner,) = [hinge.law for hinge in plastic_hinges(structure) if hinge.name == "corner-left"]
+    # round tubes resist opening by more than twice as much
+    moments = sorted(_largest(corner, sense) for sense in (1, -1))
+    assert moments[1] > 2.0 * moments[0]
+    share = moments[0 if closes else 1] / moment
+    section, steel = structure.section_of("beam"), structure.material_of("beam")
+    assert left == pytest.approx(left_in_bending(section, steel, 60e-3, moment, strike.spans, (share, 1.0)))
