@@ -29,7 +29,9 @@ BALL = "type: sphere, point: [-55 mm, 0 m, {height}], radius: 15 mm"
 
 
 def reported(shape, more=", axial: true"):
-    result = solve(loads(TEXT.format(shape=shape, more=more)))
+    text = TEXT.format(shape=shape, more=more)
+    # the plane crushes the wall, in very short steps, once it has met the held part
+    result = solve(loads(text.replace("duration: 0.5 s", "duration: 0.2 s") if shape is PLANE else text))
     return [text for text in result.warnings if "held part" in text]
 
 
@@ -40,8 +42,8 @@ def test_an_obstacle_that_reaches_the_held_part_is_reported(shape):
     assert "Obstacle ram" in text
     assert "member post" in text
     if shape is PLANE:
-        # what moves is pressed at its hinge, where it cannot give way: the run ends
-        assert "meets held parts of member post at 150 ms" in text
+        # judged at outputs, every 10 ms
+        assert "passes through held parts of member post from 160 ms on" in text
 
 
 @pytest.mark.parametrize(
