@@ -80,7 +80,8 @@ supports:
   e: {node: e, fix: all}
   side: {node: b, motion: {x: {table: {time: [0 s, 1 s], value: [0 mm, 100 mm]}}}}
 obstacles:
-  press: {type: plane, point: [0 m, 0 m, 1.6 m], normal: [0, 0, -1], velocity: [0 m/s, 0 m/s, -0.3 m/s], members: [p1, p2]}
+  press: {type: plane, point: [0 m, 0 m, 1.6 m], normal: [0, 0, -1], velocity: [0 m/s, 0 m/s, -0.3 m/s],
+          members: [p1, p2]}
 analysis:
   multibody: {members: KIND}
   stages:
