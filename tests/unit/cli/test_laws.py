@@ -96,8 +96,8 @@ def test_a_file_for_frozen_laws_that_cannot_be_written_is_refused_with_what_to_d
 def test_a_range_whose_runs_all_stopped_is_no_empty_line():
     hinges = {"h": SimpleNamespace(rotation_max=0.1, energy=5.0)}
 
-    def lines(ranges, failed, cases=None):
-        found = LawRange(ranges, {"h": 0.2}, (), failed, cases or {})
+    def lines(ranges, failed, cases=None, without=()):
+        found = LawRange(ranges, {"h": 0.2}, without, failed, cases or {})
         return list(range_lines(SimpleNamespace(law_range=found, hinges=hinges)))
 
     name = "hinge.h.energy"
@@ -109,6 +109,10 @@ def test_a_range_whose_runs_all_stopped_is_no_empty_line():
     assert some[1].startswith("Not in the range, runs that stopped early")
     (same,) = lines({name: (5.0, 5.0)}, (), {"all laws low": {name: 5.0}})
     assert same.endswith("nothing changes by more than rounding")
+    # as if it were certain: what turns has no band
+    none, lacking = lines({name: (5.0, 5.0)}, (), {"all laws low": {name: 5.0}}, without=("k",))
+    assert none.startswith("No range from the laws: ")
+    assert lacking == "Without a band: k"
 
 
 @pytest.mark.parametrize(

@@ -107,8 +107,12 @@ def range_lines(result: Result) -> Iterator[str]:
         return
     shown = "; ".join(f"{name} {low} to {high} {unit}" for name, unit, _, low, high in rows[:MOST_RANGES])
     more = f"; and {len(rows) - MOST_RANGES} more in summary.json" if len(rows) > MOST_RANGES else ""
-    shown = shown or "nothing changes by more than rounding"
-    yield f"Range from the laws (a range, not a bound): {shown}{more}"
+    if rows:
+        yield f"Range from the laws (a range, not a bound): {shown}{more}"
+    elif found.without:
+        yield "No range from the laws: those that have a band change nothing by more than rounding"
+    else:
+        yield "Range from the laws: nothing changes by more than rounding"
     if found.without:
         yield f"Without a band: {', '.join(found.without[:MOST_NAMES])}" + (
             f" and {len(found.without) - MOST_NAMES} more" if len(found.without) > MOST_NAMES else ""

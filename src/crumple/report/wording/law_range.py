@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 LEAST = 1e-3
 """Width of a range over the widest of its kind below which it is not listed, and a value is shown as 0."""
 ROUNDING = 1e-6
-"""Relative width of a range that is rounding."""
+"""Width of a range over the largest value of its kind that is rounding."""
 _UNITS = {"rotation_max": "rad", "energy": "J"}
 
 
@@ -65,9 +65,10 @@ def _ranges(result: Result) -> Iterator[_Range]:
         kinds[_unit(name)].append((name, low, high))
     for si, ranges in kinds.items():
         ranges.sort(key=lambda one: (one[1] - one[2], one[0]))
+        largest = max((max(abs(low), abs(high)) for _, low, high in ranges), default=0.0)
         for name, low, high in ranges:
             least = LEAST * (ranges[0][2] - ranges[0][1])
-            if high - low > max(least, ROUNDING * max(abs(low), abs(high))):
+            if high - low > max(least, ROUNDING * largest):
                 yield _Range(name, si, _nominal(result, name), low, high, least)
 
 

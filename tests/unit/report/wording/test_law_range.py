@@ -31,5 +31,11 @@ def test_widest_ranges_come_first_and_negligible_ones_are_left_out():
     assert rows[1][3:] == ("0", "10")
 
 
+def test_rounding_of_what_stands_still_is_no_range():
+    """Where the hinges that turn have no band, all that differs are the energies of those that do not."""
+    found = result_with({"hinge.foot.energy": (-1.3e-14, 1.6e-14), "hinge.knee.energy": (700.0, 700.0)})
+    assert range_rows(found) == []
+
+
 def test_without_bands_there_are_no_rows():
     assert range_rows(SimpleNamespace(law_range=None)) == []

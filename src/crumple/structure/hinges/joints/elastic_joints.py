@@ -97,7 +97,12 @@ def _joint_record(
 def _beyond_a_fold(
     structure: StructureParts, member: str, axis: Axis, station: float, own: list[PlacedHinge]
 ) -> bool:
-    """Whether a station lies in a rigid joint, or between an end and a hinge less than one fold away."""
+    """Whether a station lies in a rigid joint, or between an end and a hinge less than one fold away.
+
+    Of a member without hinges none does: nothing else stands for its folds.
+    """
+    if not own:
+        return False
     first, second = (joint_reach(structure, member, node) for node in structure.members[member].nodes)
     if not first < station < structure.frame_of(member).length - second and (first or second):
         return True
