@@ -137,7 +137,8 @@ void mean_capacities(const SpatialHinge& hinge, const SpatialHingeState& s, cons
             const double ahead = capacity_over(curve, from * per_work, to * per_work, at_end, f.hint[k][sense]);
             const double here = held > 0 && !at_end ? curve.at(from * per_work, f.hint[k][sense]) : 0;
             f.component[k].capacity[sense] = law_of(hinge, k).scale * (at_end ? ahead : held * here + (1 - held) * ahead);
-            if (held > 0.5) continue;
+            // in motion, where both ends of a step weigh the same, nothing needs it
+            if (f.late == 0.5 || held > 0.5) continue;
             const double slope = law_of(hinge, k).scale * slope_over(curve, from * per_work, to * per_work, at_end, f.hint[k][sense]);
             f.slope[k] = std::max(f.slope[k], slope);
         }

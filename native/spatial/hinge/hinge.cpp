@@ -249,6 +249,7 @@ void divide_shared(const SpatialHinge& hinge, const SpatialHingeState& state, Fr
         const double load = std::clamp((load_factor(hinge, f, back) - divided_from) / (1 - divided_from), 0.0, 1.0);
         weight = load * load * (3 - 2 * load);
     }
+    if (f.intact < 1) weight = 0;
     const double power = f.reference * fastest;
     for (int k = 0; k < size(hinge); k++) {
         const double c = larger_capacity(f, k);

@@ -81,7 +81,7 @@ struct FrozenSpatialHinge {
     double grown = 1;           // tension flange: share of its arm
     hinge::FrozenHinge component[most_components];  // capacities of both senses, stops, damper; of a shifted set its half axes
     double shift[most_components] = {}, centre[most_components] = {};  // share of the shift, and the centre of K
-    // What a capacity grows by with its own rotation over the step [N m/rad or N/m]; without coupling set by `divide_shared`.
+    // Quasi-static: what a capacity grows by with its own rotation over the step [N m/rad or N/m]; without coupling set by `divide_shared`.
     double slope[most_components] = {};
     // Quasi-static: what a moment grows by with its rate, and with its rate beyond `expected`, the one at which its capacity is frozen
     // [N m s or N s]; see "Hinges that share a rotation" in docs/theory/spatial_kernel.md.
