@@ -22,7 +22,7 @@ from crumple.structure.geometry import NARROWEST
 from crumple.structure.hinges.corners import corners, is_whole, leaving
 from crumple.structure.keys.obstacles import Obstacle
 from crumple.structure.parts import StructureParts
-from crumple.structure.struck_places import PLACES, axis_gaps
+from crumple.structure.struck_places import LEAST, axis_gaps
 
 LARGEST_SHARE = 0.35
 """Share of a member that a joint takes at most."""
@@ -60,7 +60,11 @@ def joint_reach(structure: StructureParts, member: str, node: str) -> float:
 
 
 def strikes_joint(structure: StructureParts) -> bool:
-    """Whether structure or obstacle moves at the start, and the members' nearest place is a rigid joint."""
+    """Whether structure or obstacle moves at the start, and a nearest place of the members is a rigid joint.
+
+    Where a face meets a member flush, all places along it are equally near, and the joint at its end counts,
+    in whichever order the input names members and their nodes.
+    """
     return structure.kept.once("strikes joint", "", lambda: _strikes_joint(structure))
 
 
@@ -71,16 +75,17 @@ def _strikes_joint(structure: StructureParts) -> bool:
 
 
 def _nearest_is_joint(structure: StructureParts, obstacle: Obstacle) -> bool:
-    """Whether the nearest place of the members' axes to an obstacle, at the start, is a rigid joint."""
+    """Whether one of the places of the members' axes nearest to an obstacle at the start is a rigid joint."""
     names = [name for name in obstacle.members or structure.members if structure.has_line(name)]
     if not names:
         return False
     gaps = axis_gaps(structure, obstacle, names)
-    which, place = np.unravel_index(np.argmin(gaps), gaps.shape)
-    if PLACES[place] not in (0.0, 1.0):
-        return False
-    member = names[which]
-    return joint_reach(structure, member, structure.members[member].nodes[int(PLACES[place])]) > 0.0
+    nearest = gaps.min() + LEAST
+    return any(
+        gap <= nearest and joint_reach(structure, name, node) > 0.0
+        for name, own in zip(names, gaps, strict=True)
+        for node, gap in zip(structure.members[name].nodes, (own[0], own[-1]), strict=True)
+    )
 
 
 def _half_depth(structure: StructureParts, member: str, direction: Floats) -> float:

@@ -102,6 +102,25 @@ def test_a_joint_is_struck_where_it_is_nearest_to_what_moves():
 
 
 @pytest.mark.parametrize(
+    ("arm", "stem"), [(arm, stem) for arm in ("left, middle", "middle, left") for stem in "st"]
+)
+@pytest.mark.parametrize(("x", "joint"), [(0.06, True), (0.14, True), (-0.26, False)])
+def test_a_face_that_meets_an_arm_flush_strikes_the_joint_at_its_end_however_members_are_named(
+    x, joint, arm, stem
+):
+    """The wedge lies below the arm up to x: its face ends beyond the node, or short of it."""
+    text = STRUCK.format(at="[0 m, 0 m, 0 m]", more="", hinges="auto")
+    start = text.index("obstacles:")
+    plane = f"{{type: plane, point: [{x} m, 0 m, -0.1 m], normal: [0, 0, 1], edge: [1, 0, 0], {RISES}}}"
+    text = text[:start] + f"obstacles: {{plane: {plane}}}\nanalysis: {{duration: 1 ms}}\n"
+    text = text.replace("nodes: [left, middle]", f"nodes: [{arm}]")
+    if stem == "s":
+        line = "  stem: {nodes: [middle, tip], section: tube, material: steel}\n"
+        text = text.replace(line, "").replace("members:\n", "members:\n" + line)
+    assert strikes_joint(loads(text).structure) is joint
+
+
+@pytest.mark.parametrize(
     ("at", "hinges", "yields"),
     [
         ("[0 m, 0 m, -0.1 m]", "auto", True),
