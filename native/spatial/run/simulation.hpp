@@ -131,6 +131,7 @@ private:
     bool force(Record& record) const;
     double unbalance(const State& fine) const;
     bool lost(const State& before, Record& record);
+    bool springs_back(const State& after) const;
     bool jumps(int which);
     bool strike(Record& record);
     double planned();

@@ -116,6 +116,15 @@ bool Simulation::jumps(int which) {
     return before - reached < 0.1 * (before - std::fabs(c.value));
 }
 
+// Whether a step of a quasi-static stage releases elastic energy that its loads and drives do not take up: a load was removed at once, or
+// something snapped.  The path to the next equilibrium is an estimate then.
+bool Simulation::springs_back(const State& after) const {
+    if (!stepper_.stage().quasi_static || !stepper_.elastic()) return false;
+    const double work = std::max(after.load_work - state_.load_work, after.external_work - state_.external_work);
+    const double dragged = after.dragged - state_.dragged;
+    return dragged > work && dragged > lost_share * (energies(model_, state_).elastic - energies(model_, after).elastic);
+}
+
 // Whether the structure moves far in a quasi-static stage while loads do more work than it absorbs: there is no equilibrium nearby.
 // The motion of drives is prescribed, so their work counts as absorbed.
 bool Simulation::lost(const State& before, Record& record) {

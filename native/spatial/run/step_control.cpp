@@ -100,7 +100,7 @@ double Simulation::error(const State& coarse, const State& fine) {
     double e = worst / scale_;
     const double speed = std::max(speed_, negligible_speed_);
     if (speed > 0) e = std::max(e, difference / speed);
-    e /= lost_ > 0 ? std::max(step_tolerance_, lost_tolerance) : (leading_ && !lead_->paired ? guided_share : 1) * step_tolerance_;
+    e /= lost_ > 0 || springs_back(fine) ? std::max(step_tolerance_, lost_tolerance) : (leading_ && !lead_->paired ? guided_share : 1) * step_tolerance_;
     if (stepper_.stage().quasi_static) return e;
     // an energy imbalance above the accuracy counts as an error of the step
     const double allowed = stepper_.elastic() ? std::min(settings_.accuracy, vibrating_share) : settings_.accuracy;
