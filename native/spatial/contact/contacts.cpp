@@ -158,8 +158,8 @@ bool Contacts::gather(const std::vector<Pose>& pose, const std::vector<Twist>& v
     before_.swap(active_);
     active_.clear();
     const double reach = look_ahead(pose, velocity, h, gain);
-    for (size_t p = 0; p < obstacle_pairs_; p++) find(p, pose, reach, offset(p, state));
-    for (const size_t p : near_) find(p, pose, reach, offset(p, state));
+    for (size_t p = 0; p < obstacle_pairs_; p++) find(p, pose, reach, state);
+    for (const size_t p : near_) find(p, pose, reach, state);
     // normal impulses that the forces of the last step would give
     auto held = state.held.begin();
     for (Active& c : active_) {
@@ -184,7 +184,7 @@ bool Contacts::overlooked(const std::vector<Pose>& pose, const ContactState& sta
     auto overlaps = [&](size_t p) {
         const Pair& pair = pairs_[p];
         if (!pair.present) return false;
-        const double closed = offset(p, state);
+        const double closed = largest_offset(p, state);
         const Segment& segment = now[at(pair.capsule)];
         if (pair.obstacle < 0 && least_gap(now[at(pair.solid)], segment) - closed > -closed_gap_) return false;
         const Solid solid = pair.obstacle < 0 ? as_solid(now[at(pair.solid)]) : solid_at(pair, pose);
@@ -195,7 +195,7 @@ bool Contacts::overlooked(const std::vector<Pose>& pose, const ContactState& sta
         for (int k = 0; k < n; k++) {
             const bool is_known = among(active_, static_cast<int64_t>(p) * most_touches + touch[k].slot);
             double& least = is_known ? known : unknown;
-            least = std::min(least, touch[k].gap - closed);
+            least = std::min(least, touch[k].gap - offset(p, touch[k].slot, state));
         }
         return unknown < known - closed_gap_;
     };
@@ -205,17 +205,18 @@ bool Contacts::overlooked(const std::vector<Pose>& pose, const ContactState& sta
     return std::any_of(near_.begin(), near_.end(), overlaps);
 }
 
-void Contacts::find(size_t p, const std::vector<Pose>& pose, double reach, double offset) {
+void Contacts::find(size_t p, const std::vector<Pose>& pose, double reach, const ContactState& state) {
     const Pair& pair = pairs_[p];
     if (!pair.present) return;
+    const double closed = largest_offset(p, state);
     const Segment& segment = placed_[at(pair.capsule)];
-    if (pair.obstacle < 0 && least_gap(placed_[at(pair.solid)], segment) - offset > kept * reach) return;
+    if (pair.obstacle < 0 && least_gap(placed_[at(pair.solid)], segment) - closed > kept * reach) return;
     const Solid solid = pair.obstacle < 0 ? as_solid(placed_[at(pair.solid)]) : solid_at(pair, pose);
-    if (least_gap(solid, segment) - offset > kept * reach) return;
+    if (least_gap(solid, segment) - closed > kept * reach) return;
     Touch touch[most_touches];
     const int n = points(pair, solid, segment, touch);
     for (int k = 0; k < n; k++) {
-        const double gap = touch[k].gap - offset;
+        const double own = offset(p, touch[k].slot, state), gap = touch[k].gap - own;
         const int64_t key = static_cast<int64_t>(p) * most_touches + touch[k].slot;
         if (gap > reach && (gap > kept * reach || !among(before_, key))) continue;
         Active c{};
@@ -224,7 +225,7 @@ void Contacts::find(size_t p, const std::vector<Pose>& pose, double reach, doubl
         c.body[0] = pair.obstacle < 0 ? model_.capsules[at(pair.solid)].body : model_.obstacles[at(pair.obstacle)].body;
         c.body[1] = model_.capsules[at(pair.capsule)].body;
         c.gap = gap;
-        c.offset = offset;
+        c.offset = own;
         c.normal = touch[k].normal;
         c.point = touch[k].point;
         Vec3 second;
@@ -268,18 +269,20 @@ void Contacts::crush(const double* gap, ContactState& state) const {
     std::vector<double> deeper;
     for (size_t i = 0; i < active_.size(); i++) {
         if (!crushes(i) || gap[rows() * i] >= 0) continue;
-        deeper.resize(pairs_.size(), 0);
-        deeper[active_[i].pair] = std::max(deeper[active_[i].pair], -gap[rows() * i]);
+        deeper.resize(2 * pairs_.size(), 0);
+        double& depth = deeper[wall(active_[i].pair, static_cast<int>(active_[i].key % most_touches))];
+        depth = std::max(depth, -gap[rows() * i]);
     }
     if (deeper.empty()) return;
-    state.crushed.resize(pairs_.size(), 0);
-    for (size_t p = 0; p < pairs_.size(); p++) state.crushed[p] += deeper[p];
+    state.crushed.resize(deeper.size(), 0);
+    for (size_t w = 0; w < deeper.size(); w++) state.crushed[w] += deeper[w];
 }
 
 std::vector<Contacts::Crushed> Contacts::crushed(const ContactState& state) const {
     std::vector<Crushed> out;
-    for (size_t p = 0; p < state.crushed.size(); p++) {
-        if (state.crushed[p] > 0) out.push_back({pairs_[p].obstacle, pairs_[p].solid, pairs_[p].capsule, state.crushed[p]});
+    for (size_t p = 0; 2 * p < state.crushed.size(); p++) {
+        const double depth = std::max(state.crushed[2 * p], state.crushed[2 * p + 1]);
+        if (depth > 0) out.push_back({pairs_[p].obstacle, pairs_[p].solid, pairs_[p].capsule, depth});
     }
     return out;
 }

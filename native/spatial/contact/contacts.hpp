@@ -59,7 +59,7 @@ struct ContactState {
     double dissipated = 0, friction = 0;  // [J]
     std::vector<Vec3> impulse, force;     // on every obstacle: since the start [N s]; mean over the last step [N]
     bool impact = false;                  // bodies approach at a closed contact: the next step is an impact, of the smallest length
-    std::vector<double> crushed;          // depth to which walls are crushed, per pair [m]; empty while none is
+    std::vector<double> crushed;          // depth to which walls are crushed [m], two of each pair; empty while none is
     double closing = 0;                   // after a step: time from its start at which its first open contact closed; 0 if none did
 
     // The forces to start from in the halves of a step, from the state after the whole: in the first half the same, ...
@@ -120,7 +120,7 @@ public:
     bool ramps(size_t i) const { return rows_ == 3 || crushes(i); }
     // whether the walls of a contact crush: then it has no impacts, and its overlap is not removed
     bool crushes(size_t i) const { return std::isfinite(crush_force(pairs_[active_[i].pair])); }
-    // walls of pairs that overlap by these gaps (`rows` each, the first is used) are crushed by as much
+    // walls of points that overlap by these gaps (`rows` each, the first is used) are crushed by as much
     void crush(const double* gap, ContactState& state) const;
     // obstacle (-1: none), capsules (the first -1 with an obstacle), and depth [m] of every crushed pair
     struct Crushed {
@@ -158,6 +158,7 @@ private:
         FrozenContact frozen;
     };
 
+    static bool meets_face(const Pair& pair) { return pair.obstacle >= 0 && !pair.curved; }
     static bool in_order(const Pair& a, const Pair& b) {
         return a.solid != b.solid ? a.solid < b.solid : a.capsule < b.capsule;
     }
@@ -169,14 +170,20 @@ private:
     }
     double rest_rate(const Active& c) const;
     double crush_force(const Pair& pair) const;
-    // gap of the undeformed surfaces at which a pair is in contact
-    double offset(size_t pair, const ContactState& state) const {
-        return pairs_[pair].offset - (state.crushed.empty() ? 0 : state.crushed[pair]);
+    // Index of the depth to which walls are crushed at a point.  A face crushes each end on its own; what is curved wanders along the
+    // capsule, so that points of different kinds share a depth.
+    size_t wall(size_t pair, int slot) const { return 2 * pair + (meets_face(pairs_[pair]) && slot == 1 ? 1 : 0); }
+    // gap of the undeformed surfaces at which a point of a pair is in contact, and the largest of its points
+    double offset(size_t pair, int slot, const ContactState& state) const {
+        return pairs_[pair].offset - (state.crushed.empty() ? 0 : state.crushed[wall(pair, slot)]);
+    }
+    double largest_offset(size_t pair, const ContactState& state) const {
+        return std::max(offset(pair, 0, state), offset(pair, 1, state));
     }
     void appear(Pair& pair, const std::vector<Pose>& pose);
     double look_ahead(const std::vector<Pose>& pose, const std::vector<Twist>& velocity, double h, double gain);
     void sweep(double margin);
-    void find(size_t pair, const std::vector<Pose>& pose, double reach, double offset);
+    void find(size_t pair, const std::vector<Pose>& pose, double reach, const ContactState& state);
     static bool among(const std::vector<Active>& contacts, int64_t key);
 
     const ContactModel& model_;

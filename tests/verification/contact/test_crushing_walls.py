@@ -3,6 +3,10 @@
 A mass m that strikes a wall of crush force F at the speed v stops after m v/F, having crushed it by
 m v^2/(2 F); all of its energy is dissipated and nothing rebounds.
 
+A plane that presses slowly, by d, along the whole of a bar whose one end a hinge of the moment M holds
+crushes the wall there and turns the bar with its other end, at the distance L from the hinge: its depth is d,
+the rotation d/L (of second order in it less), and the force F + M/L.
+
 Kind: closed form.  Source: derived here.
 """
 
@@ -11,6 +15,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.support.multibody.contact_models import ball_shape, plane, simulation, sphere
+
+from crumple.analysis import loads, solve
 
 MASS, SPEED, FORCE, RADIUS = 2.0, 3.0, 4000.0, 0.1
 STOP, DEPTH = MASS * SPEED / FORCE, MASS * SPEED**2 / (2 * FORCE)
@@ -76,3 +82,38 @@ def test_friction_acts_with_the_crush_force(record_figure):
     record = run.run(np.array([0.0, 0.02]))
     lost = across - record.velocity[-1, 0, 3]
     record_figure("speed lost to friction", lost, mu * FORCE * STOP / MASS, 2e-3, "m/s")
+
+
+HELD = """crumple: 1
+materials: {steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 300 MPa}}
+sections: {tube: {type: square_tube, side: 50 mm, thickness: 2 mm}}
+nodes: {root: [0 m, 0 m, 0 m], tip: [0 m, 0 m, 1 m]}
+members:
+  post:
+    nodes: [root, tip]
+    section: tube
+    material: steel
+    hinges: [{name: h, at: root, offset: 200 mm, law: {type: table, rotation: [0 deg, 60 deg], moment: [2 kN m, 2 kN m]}}]
+supports: {clamp: {node: root, fix: all}}
+obstacles:
+  ram: {type: plane, point: [-40 mm, 0 m, 0 m], normal: [1, 0, 0], motion: {x: {table: TABLE}}}
+analysis: {stages: [{name: push, kind: quasi-static, duration: 0.5 s}]}
+outputs: {every: 10 ms}
+"""
+
+
+def test_a_plane_crushes_the_held_end_of_a_bar_and_turns_it_with_the_other(record_figure):
+    """With one depth for the whole bar the plane never reached its other end, in 109 036 steps."""
+    pressed, lever = 0.1 * 0.5 - 0.015, 0.8 - 0.025
+    table = "{time: [0 s, 1 s], value: [0 m, 100 mm]}"
+    result = solve(loads(HELD.replace("TABLE", table)), checks=False)
+    assert result.status.ok, result.reason
+    assert result.provenance.settings["steps"] < 500
+    (crushed,) = (caution for caution in result.cautions if caution.code == "crushed_contact")
+    record_figure("depth at the held end", crushed.value, pressed, 1e-5, "m")
+    record_figure(
+        "rotation of the bar", -result["hinge.h.rotation"][-1], pressed / lever, 3e-3, relative=True
+    )
+    squash = 300e6 * 4 * 0.048 * 0.002
+    force = -result["obstacle.ram.force.x"][-1]
+    record_figure("force of the plane", force, squash + 2e3 / lever, 2e-3, "N", relative=True)

@@ -1,8 +1,8 @@
 """A load that is removed at once in a quasi-static stage, with elastic members.
 
 Functions of time count from the start of a stage, so a load that grew in one stage begins at its first value
-in the next: what it bent springs back.  The frame returns along the elastic line of its hinges, so it comes to
-rest where it does if the load decreases slowly.  On the way drag alone takes up what the frame releases; the
+in the next: what it bent springs back.  The frame returns along the elastic line of its hinges, so it comes
+to rest where it does if the load decreases slowly.  On the way drag alone takes up what the frame releases; the
 path is an estimate, and steps that resolved it as closely as an equilibrium were some 10 ns long, and the run
 came to a halt.
 
@@ -16,7 +16,8 @@ import numpy as np
 from crumple.analysis import loads, solve
 
 FRAME = """crumple: 1
-materials: {steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 355 MPa}}
+materials:
+  steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 355 MPa}
 sections: {tube: {type: square_tube, side: 60 mm, thickness: 3 mm}}
 nodes:
   a: [0 m, 0 m, 0 m]
