@@ -85,7 +85,8 @@ def test_friction_acts_with_the_crush_force(record_figure):
 
 
 HELD = """crumple: 1
-materials: {steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 300 MPa}}
+materials:
+  steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 300 MPa}
 sections: {tube: {type: square_tube, side: 50 mm, thickness: 2 mm}}
 nodes: {root: [0 m, 0 m, 0 m], tip: [0 m, 0 m, 1 m]}
 members:
@@ -93,7 +94,8 @@ members:
     nodes: [root, tip]
     section: tube
     material: steel
-    hinges: [{name: h, at: root, offset: 200 mm, law: {type: table, rotation: [0 deg, 60 deg], moment: [2 kN m, 2 kN m]}}]
+    hinges:
+    - {name: h, at: root, offset: 200 mm, law: {type: table, rotation: [0 deg, 60 deg], moment: [2 kN m, 2 kN m]}}
 supports: {clamp: {node: root, fix: all}}
 obstacles:
   ram: {type: plane, point: [-40 mm, 0 m, 0 m], normal: [1, 0, 0], motion: {x: {table: TABLE}}}

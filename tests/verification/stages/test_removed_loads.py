@@ -2,9 +2,9 @@
 
 Functions of time count from the start of a stage, so a load that grew in one stage begins at its first value
 in the next: what it bent springs back.  The frame returns along the elastic line of its hinges, so it comes
-to rest where it does if the load decreases slowly.  On the way drag alone takes up what the frame releases; the
-path is an estimate, and steps that resolved it as closely as an equilibrium were some 10 ns long, and the run
-came to a halt.
+to rest where it does if the load decreases slowly.  On the way drag alone takes up what the frame releases;
+the path is an estimate, and steps that resolved it as closely as an equilibrium were some 10 ns long, and the
+run came to a halt.
 
 Kind: invariant.  Source: derived here.
 """
