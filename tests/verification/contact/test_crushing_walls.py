@@ -95,7 +95,10 @@ members:
     section: tube
     material: steel
     hinges:
-    - {name: h, at: root, offset: 200 mm, law: {type: table, rotation: [0 deg, 60 deg], moment: [2 kN m, 2 kN m]}}
+    - name: h
+      at: root
+      offset: 200 mm
+      law: {type: table, rotation: [0 deg, 60 deg], moment: [2 kN m, 2 kN m]}
 supports: {clamp: {node: root, fix: all}}
 obstacles:
   ram: {type: plane, point: [-40 mm, 0 m, 0 m], normal: [1, 0, 0], motion: {x: {table: TABLE}}}
