@@ -12,6 +12,8 @@ namespace {
 // steps of elastic hinges until places change by at most a share of the motion.
 constexpr int passes = 2, most_passes = 20;
 constexpr double same_place = 1e-3;
+// Least share of the way to the result of a pass that the next one begins at.
+constexpr double least_share = 0.05;
 // Passes in which contacts take the load in turns, after which their friction may disagree: it would in all that follow.
 constexpr int most_turns = 3;
 // Share of its capacity by which a hinge resists more in a quasi-static step if it turns as fast as anything does.  It divides a rotation
@@ -54,7 +56,7 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess, bool dis
         freeze(s, h);
         if (!solve()) return false;
         settled = settle();
-        guess_ = p_.velocity;
+        follow_pass();
     }
     return end_.commit(s, h, !discarded);
 }
@@ -76,6 +78,8 @@ void Stepper::begin(State& s, double h, const std::vector<Twist>* guess, bool di
     find_redundant(s.pose);
     turned_back_.assign(p_.frozen.size(), false);
     turns_ = 0;
+    change_.clear();
+    share_ = 1;
     // a guess is the result of a step that has just been solved
     newton_.begin(guess != nullptr, !discarded);
 }
@@ -233,6 +237,30 @@ bool Stepper::keeps_place() const {
         motion = std::max({motion, norm(to.v), norm(to.w) * p_.model.length});
     }
     return change <= same_place * motion;
+}
+
+// The guess of the next pass: the result of this one.  Where passes in search of a place overshoot, it is a share s of the way there.  What
+// a member carries along its axis pulls it back across it by more than its yielded hinges yield, so that the change r of every pass is
+// larger than that of the one before and opposite; along it, s = s_0 r_0 (r_0 - r)/|r_0 - r|^2 ends this in a pass (Aitken's relaxation).
+void Stepper::follow_pass() {
+    if (!p_.balances() || records_.following()) {
+        guess_ = p_.velocity;
+        return;
+    }
+    const double length = p_.model.length;
+    auto dot_of = [&](const Twist& a, const Twist& b) { return dot(a.v, b.v) + length * length * dot(a.w, b.w); };
+    double along = 0, apart = 0;
+    for (size_t i = 0; i < change_.size(); i++) {
+        const Twist less = change_[i] - (p_.velocity[i] - guess_[i]);
+        along += dot_of(change_[i], less);
+        apart += dot_of(less, less);
+    }
+    share_ = along > 0 ? std::clamp(share_ * along / apart, least_share, 1.0) : 1;
+    change_.resize(guess_.size());
+    for (size_t i = 0; i < guess_.size(); i++) {
+        change_[i] = p_.velocity[i] - guess_[i];
+        guess_[i] = guess_[i] + share_ * change_[i];
+    }
 }
 
 // Whether a coupled hinge came to rest or reversed in a step that assumed continued sliding: its rates then have another weight, see

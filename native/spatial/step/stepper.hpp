@@ -87,6 +87,7 @@ private:
     void divide_shared_rotations(const State& s);
     void freeze_spring(const State& s, double h, size_t link);
     bool keeps_place() const;
+    void follow_pass();
     bool turned_back();
     void find_redundant(const std::vector<Pose>& poses);
 
@@ -98,6 +99,8 @@ private:
     Loops loops_;
     VibrationFilter filter_;
     std::vector<Twist> direction_, momentum_, guess_;
+    std::vector<Twist> change_;              // of the velocities by the last pass, and the share of it that was taken
+    double share_ = 1;
     std::vector<char> turned_back_;  // per hinge: whether it reversed in a pass over the present step
     int turns_ = 0;                  // passes over the present step in which contacts took the load in turns
     int redundant_ = 0;
