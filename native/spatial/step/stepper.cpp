@@ -243,7 +243,7 @@ bool Stepper::keeps_place() const {
 // a member carries along its axis pulls it back across it by more than its yielded hinges yield, so that the change r of every pass is
 // larger than that of the one before and opposite; along it, s = s_0 r_0 (r_0 - r)/|r_0 - r|^2 ends this in a pass (Aitken's relaxation).
 void Stepper::follow_pass() {
-    if (!p_.balances() || records_.following()) {
+    if (!p_.balances()) {
         guess_ = p_.velocity;
         return;
     }

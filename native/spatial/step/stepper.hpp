@@ -99,7 +99,7 @@ private:
     Loops loops_;
     VibrationFilter filter_;
     std::vector<Twist> direction_, momentum_, guess_;
-    std::vector<Twist> change_;              // of the velocities by the last pass, and the share of it that was taken
+    std::vector<Twist> change_;      // of the velocities by the last pass, and the share of it that was taken
     double share_ = 1;
     std::vector<char> turned_back_;  // per hinge: whether it reversed in a pass over the present step
     int turns_ = 0;                  // passes over the present step in which contacts took the load in turns
