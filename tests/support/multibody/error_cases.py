@@ -1,7 +1,7 @@
 """Twenty structures whose true errors are compared with the stated ones: ten to look at, ten held back.
 
-Free frames on walls, poles and in corners, with friction; impacts that stick and slip; stops, rates and hinges
-that share a rotation.  `case(name)` is the analysis.  Lengths in metres, SI units.
+Free frames on walls, poles and in corners, with friction; impacts that stick and slip; stops, rates and
+hinges that share a rotation.  `case(name)` is the analysis.  Lengths in metres, SI units.
 """
 
 from __future__ import annotations
@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 
 import crumple
+from crumple.multibody import Run
+from crumple.multibody.solve import solve_multibody
 
 Parts = dict[str, Any]
 
@@ -21,11 +23,14 @@ DOWN = (0.0, 0.0, -9.81)
 
 def frame(nodes: Parts, pairs: list[str], *, axes: list[str] | None = None, **more: Any) -> Parts:
     """Keys of a structure of tubes between the named nodes ("a-b"), automatic hinges at their ends."""
-    members = {pair: {"nodes": tuple(pair.split("-")), "section": "tube", "material": "steel"} for pair in pairs}
+    members = {
+        pair: {"nodes": tuple(pair.split("-")), "section": "tube", "material": "steel"} for pair in pairs
+    }
     hinges: Any = "auto" if axes is None else {"axes": axes, "coupling": "ellipsoid"}
     materials, sections = {"steel": more.pop("steel", STEEL)}, {"tube": more.pop("tube", TUBE)}
     return {
-        "materials": materials, "sections": sections, "nodes": nodes, "members": members, "hinges": hinges, **more,
+        "materials": materials, "sections": sections, "nodes": nodes, "members": members, "hinges": hinges,
+        **more,
     }  # fmt: skip
 
 
@@ -141,14 +146,22 @@ def tripod_drops() -> crumple.Analysis:
     nodes["b"] = (*nodes["b"][:2], 0.06)
     parts = frame(nodes, ["a-top", "b-top", "c-top"], axes=["y", "z"], masses={"m": load("top", 40.0)})
     parts["obstacles"] = {"floor": wall(nodes, (0, 0, 1), gap=0.03, friction=0.5)}
-    return analysis({**parts, "gravity": DOWN, "initial_velocity": thrown(1.5, 0, -9.0)}, 0.04, "rigid", "top")
+    return analysis(
+        {**parts, "gravity": DOWN, "initial_velocity": thrown(1.5, 0, -9.0)}, 0.04, "rigid", "top"
+    )
 
 
 def portal_struck() -> crumple.Analysis:
     nodes = {"p": (0, 0, 0), "a": (0, 0, 0.7), "b": (0.8, 0, 0.7), "q": (0.8, 0, 0)}
     supports = {"p": {"node": "p", "fix": "all"}, "q": {"node": "q", "fix": "all"}}
     parts = frame(nodes, ["p-a", "a-b", "b-q"], supports=supports)
-    ball = {"point": (-0.13, 0.0, 0.55), "radius": 0.1, "friction": 0.3, "mass": 25.0, "velocity": (7.0, 0, 0)}
+    ball = {
+        "point": (-0.13, 0.0, 0.55),
+        "radius": 0.1,
+        "friction": 0.3,
+        "mass": 25.0,
+        "velocity": (7.0, 0, 0),
+    }
     return analysis({**parts, "obstacles": {"ball": {"type": "sphere", **ball}}}, 0.05, "elastic", "a", "b")
 
 
@@ -157,7 +170,9 @@ def ring_in_corner() -> crumple.Analysis:
     parts = frame(nodes, pairs, masses={"m": load("a", 10.0)})
     walls = {"wall": wall(nodes, (1, 0, 0), gap=0.02, friction=0.3)}
     walls["side"] = wall(nodes, (0, 1, 0), gap=0.025, friction=0.2)
-    return analysis({**parts, "obstacles": walls, "initial_velocity": thrown(-7, -5, 0)}, 0.03, "rigid", "a", "d")
+    return analysis(
+        {**parts, "obstacles": walls, "initial_velocity": thrown(-7, -5, 0)}, 0.03, "rigid", "a", "d"
+    )
 
 
 def chain(form: Parts, rate: bool, duration: float, spin: float) -> crumple.Analysis:
@@ -210,7 +225,9 @@ def tetrahedron_drops() -> crumple.Analysis:
     nodes = {name: tuple(map(float, turn @ np.array(at))) for name, at in {**base, "d": (0, 0, 0.55)}.items()}
     parts = frame(nodes, [*pairs, "a-d", "b-d", "c-d"], axes=["y", "z"], masses={"m": load("d", 40.0)})
     parts["obstacles"] = {"floor": wall(nodes, (0, 0, 1), gap=0.03, friction=0.3)}
-    return analysis({**parts, "gravity": DOWN, "initial_velocity": thrown(2, 1, -10)}, 0.04, "rigid", "d", "a")
+    return analysis(
+        {**parts, "gravity": DOWN, "initial_velocity": thrown(2, 1, -10)}, 0.04, "rigid", "d", "a"
+    )
 
 
 def cage_rolls() -> crumple.Analysis:
@@ -237,7 +254,9 @@ def ladder_in_corner() -> crumple.Analysis:
     parts = frame(nodes, pairs, masses={"m": load("r2", 25.0)})
     walls = {"wall": wall(nodes, (1, 0, 0), gap=0.02, friction=0.4)}
     walls["floor"] = wall(nodes, (0, 1, 0), gap=0.03, friction=0.3)
-    return analysis({**parts, "obstacles": walls, "initial_velocity": thrown(-8, -8, 0)}, 0.035, "rigid", "r2")
+    return analysis(
+        {**parts, "obstacles": walls, "initial_velocity": thrown(-8, -8, 0)}, 0.035, "rigid", "r2"
+    )
 
 
 def chair_drops() -> crumple.Analysis:
@@ -248,7 +267,9 @@ def chair_drops() -> crumple.Analysis:
     pairs = ["a-A", "b-B", "c-C", "d-D", "A-B", "B-D", "D-C", "C-A"]
     parts = frame(nodes, pairs, axes=["y", "z"], masses={"m": load("A", 12.0), "n": load("D", 18.0)})
     parts["obstacles"] = {"floor": wall(nodes, (0, 0, 1), gap=0.03, friction=0.35)}
-    return analysis({**parts, "gravity": DOWN, "initial_velocity": thrown(2, 0.5, -5)}, 0.03, "elastic", "A", "D")
+    return analysis(
+        {**parts, "gravity": DOWN, "initial_velocity": thrown(2, 0.5, -5)}, 0.03, "elastic", "A", "D"
+    )
 
 
 def shoved_ring() -> crumple.Analysis:
@@ -267,7 +288,13 @@ def springy_chain() -> crumple.Analysis:
 
 
 def gate_struck() -> crumple.Analysis:
-    nodes = {"p": (0, 0, 0), "a": (0, 0, 0.8), "b": (0.6, 0.1, 0.8), "q": (0.6, 0.1, 0), "t": (0.3, 0.05, 1.1)}
+    nodes = {
+        "p": (0, 0, 0),
+        "a": (0, 0, 0.8),
+        "b": (0.6, 0.1, 0.8),
+        "q": (0.6, 0.1, 0),
+        "t": (0.3, 0.05, 1.1),
+    }
     supports = {"p": {"node": "p", "fix": "all"}, "q": {"node": "q", "fix": "all"}}
     steel = {**STEEL, "yield_rate": {"type": "cowper-symonds", "D": 40.4, "q": 5.0}}
     pairs = ["p-a", "a-t", "t-b", "b-q"]
@@ -282,8 +309,8 @@ LOOKED_AT = (
     ring_in_corner, chain_on_stops, frame_shared,
 )  # fmt: skip
 HELD_BACK = (
-    triangle_slides, hexagon_spins, tetrahedron_drops, cage_rolls, t_frame_on_pole, ladder_in_corner, chair_drops,
-    shoved_ring, springy_chain, gate_struck,
+    triangle_slides, hexagon_spins, tetrahedron_drops, cage_rolls, t_frame_on_pole, ladder_in_corner,
+    chair_drops, shoved_ring, springy_chain, gate_struck,
 )  # fmt: skip
 CASES = {build.__name__: build for build in (*LOOKED_AT, *HELD_BACK)}
 
@@ -291,3 +318,11 @@ CASES = {build.__name__: build for build in (*LOOKED_AT, *HELD_BACK)}
 def case(name: str) -> crumple.Analysis:
     """The analysis of a structure of either half."""
     return CASES[name]()
+
+
+def solved(name: str, accuracy: float, *, checks: bool = True) -> crumple.Result:
+    """The result of a structure at an accuracy, with stated errors if `checks`."""
+    asked = case(name)
+    settings = asked.multibody.model_copy(update={"accuracy": accuracy})
+    run = Run(asked.duration, asked.outputs.every, settings, asked.outputs, checks=checks)
+    return solve_multibody(asked.structure, run)
