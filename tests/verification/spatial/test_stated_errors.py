@@ -4,7 +4,7 @@ Reference: runs at a fortieth of the accuracy (docs/theory/stated_errors.md has 
 structures).  Where the difference of two runs alone was stated, 23 % of the rotations of the looked-at and
 18 % of those of the held-back structures erred by more.
 
-Kind: convergence.  Source: derived here.
+Kind: invariant.  Source: derived here.
 """
 
 import numpy as np
