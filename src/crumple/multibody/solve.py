@@ -25,7 +25,8 @@ from crumple.multibody.answer.histories import (
     summaries,
 )
 from crumple.multibody.answer.shapes import refuse_pictures, states_of
-from crumple.multibody.answer.solved import HingeHistory, Poll, Solved, Solver
+from crumple.multibody.answer.solved import Poll, Solved, Solver
+from crumple.multibody.answer.stated_errors import StatedErrors, rotation_differences, stated_errors
 from crumple.multibody.checks import trust
 from crumple.multibody.checks.collapse import changed_capacities, collapse_log, not_unique, scaled_hinge
 from crumple.multibody.checks.overlap import obstacle_overlap_warnings
@@ -43,7 +44,6 @@ from crumple.multibody.run import (
     poll_of,
 )
 from crumple.multibody.spatial.solver import SpatialSolver
-from crumple.numeric.arrays import Floats
 from crumple.result import Provenance, Result, missing_pictures, sentences
 from crumple.structure import Structure, any_automatic, law_use_about, placed_hinges, with_elastic_members
 from crumple.text.names import listed
@@ -118,11 +118,12 @@ def solve_multibody(
             solved = rough = replace(solved, outcome=Outcome.CANCELLED, reason=reason)
     errors = None
     if run.checks and solved.outcome is Outcome.COMPLETE and rough.outcome is Outcome.COMPLETE:
-        errors = _errors(rough, solved)
+        beside = rough
         turned = max((one.rotation_max for one in solved.hinges), default=0.0)
-        if errors.max(initial=0.0) > max(FORK * turned, NEGLIGIBLE):
+        if rotation_differences(rough, solved).max(initial=0.0) > max(FORK * turned, NEGLIGIBLE):
             poll = poll_of(run.duration, (checked, checked), progress, cancel)
-            errors = _errors_beside_finer(solver, solved, errors, run, (poll, cancel))
+            beside = _finer(solver, accuracy, poll, cancel) or rough
+        errors = stated_errors(structure, beside, solved)
     doubt = _doubt(structure, run, solver, rough, (progress, cancel)) if run.checks else None
     seconds = time.perf_counter() - begin
     return _result(
@@ -163,35 +164,14 @@ def _balanced(solver: Solver, solved: Solved, run: Run, poll: Poll) -> tuple[Sol
     return solved, accuracy
 
 
-def _errors(rough: Solved, solved: Solved) -> Floats:
-    """Error of every hinge's rotation [rad]: difference of the coarse run, and unresolved loads.
-
-    Rotations go with the square of the speed that makes them, so a share of the speed is twice that of a
-    rotation.
-    """
-    errors = [
-        max(abs(a.rotation_max - b.rotation_max), abs(_final(a) - _final(b)))
-        for a, b in zip(rough.hinges, solved.hinges, strict=True)
-    ]
-    unseen = [2.0 * solved.unseen * hinge.rotation_max for hinge in solved.hinges]
-    return np.asarray(np.array(errors) + np.array(unseen))
-
-
-def _errors_beside_finer(
-    solver: Solver, solved: Solved, errors: Floats, run: Run, asked: tuple[Poll, Cancel | None]
-) -> Floats:
-    """Errors from a run that is finer than the answer: a coarser one may take another path near a fork."""
-    poll, cancel = asked
+def _finer(solver: Solver, accuracy: float, poll: Poll, cancel: Cancel | None) -> Solved | None:
+    """A run finer than the answer, if it completes: a coarser one may take another path near a fork."""
     try:
         with asking(cancel):
-            finer = solver.run(run.settings.accuracy / CHECK_FACTOR**2, poll, ends_only=True)
+            finer = solver.run(accuracy / CHECK_FACTOR**2, poll, ends_only=True)
     except CancelledError:
-        return errors
-    return _errors(finer, solved) if finer.outcome is Outcome.COMPLETE else errors
-
-
-def _final(hinge: HingeHistory) -> float:
-    return float(hinge.values("rotation")[-1])
+        return None
+    return finer if finer.outcome is Outcome.COMPLETE else None
 
 
 def solver_of(structure: Structure, run: Run) -> Solver:
@@ -243,7 +223,7 @@ def _result(
     solver: Solver,
     solved: Solved,
     *,
-    errors: Floats | None,
+    errors: StatedErrors | None,
     doubt: str | None,
     seconds: float,
     accuracy: float,
@@ -302,6 +282,7 @@ def _result(
         stages=solved.stages,
         crumpled_ends=solved.crumpled,
         dents=dented_walls(solved.dents),
+        displacement_errors={} if errors is None else errors.displacement,
         yielded=_yielded(solved),
     )
 

@@ -74,6 +74,8 @@ class HingeSummary:
         Largest absolute moment [N m], of several axes the largest length of the vector.
     rotation_error
         Estimated error of rotation_max [rad]; None where no estimate was made.
+    energy_error
+        Estimated error of energy [J]; None where no estimate was made.
     law, source, form
         Title, citation with trust, and form of the law.
     validity_rotation, validity_basis
@@ -95,6 +97,7 @@ class HingeSummary:
     energy: float
     moment_max: float
     rotation_error: float | None = None
+    energy_error: float | None = None
     law: str = ""
     source: str = ""
     form: str = ""
@@ -280,6 +283,8 @@ class Result:
     yielded: Mapping[str, tuple[tuple[float, float], ...]] = field(default_factory=dict)
     """Station [m] of each place at which an elastic member yielded between its hinges, and energy [J]
     dissipated there until the end, by member."""
+    displacement_errors: Mapping[str, float] = field(default_factory=dict)
+    """Estimated error of the displacement of each node at the end [m], by node; empty without an estimate."""
     scatter: Scatter | None = None
     """How the result scatters with the input, if that has a block `uncertainty`."""
 

@@ -14,8 +14,8 @@ from crumple.result.scatter import Scatter
 
 _HINGE_KEYS = (
     "rotation_max", "rotation_final", "time_of_rest", "energy", "moment_max", "rotation_error",
-    "law", "source", "form", "validity_rotation", "validity_basis", "law_rotation", "position",
-    "fracture_time", "fracture_moment",
+    "energy_error", "law", "source", "form", "validity_rotation", "validity_basis", "law_rotation",
+    "position", "fracture_time", "fracture_moment",
 )  # fmt: skip
 
 
@@ -48,6 +48,7 @@ def summary(result: Result) -> dict[str, Any]:
         "end_time": float(result.time[-1]) if result.time.size else None,
         "solve_seconds": result.solve_seconds,
         "energy_residual": result.energy_residual,
+        "displacement_errors": dict(result.displacement_errors),
         "stages": stages,
         "hinges": hinges,
         "outputs": outputs,

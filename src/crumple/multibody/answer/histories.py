@@ -11,6 +11,7 @@ from crumple.hinge.law_use import LawUse
 from crumple.multibody.answer.dents import DentHistory, WallMotion
 from crumple.multibody.answer.poses import Poses, piece_at
 from crumple.multibody.answer.solved import HingeHistory, Solved
+from crumple.multibody.answer.stated_errors import StatedErrors
 from crumple.multibody.bodies.rigid import lump_mass, piece_mass
 from crumple.numeric.arrays import Floats
 from crumple.result import Channel, HingeSummary
@@ -149,7 +150,7 @@ def gravity_channels(structure: Structure, poses: Poses) -> Iterator[Channel]:
 
 def summaries(
     hinges: Iterable[HingeHistory],
-    errors: Floats | None = None,
+    errors: StatedErrors | None = None,
     use: Callable[[str, Axis], LawUse | None] | None = None,
 ) -> dict[str, HingeSummary]:
     """Summaries of all hinges.
@@ -159,7 +160,7 @@ def summaries(
     hinges
         Histories.
     errors
-        Estimated error of each largest rotation [rad], (hinges,), or None.
+        Estimated errors, or None.
     use
         Says where the law of a hinge about an axis comes from.
     """
@@ -179,7 +180,8 @@ def summaries(
             moment_max=history.moment_max,
             fracture_time=history.fracture[0] if history.fracture else None,
             fracture_moment=history.fracture[1] if history.fracture else None,
-            rotation_error=None if errors is None else float(errors[k]),
+            rotation_error=None if errors is None else float(errors.rotation[k]),
+            energy_error=None if errors is None else float(errors.energy[k]),
             law=law.title,
             source=f"{law.source.citation} ({law.source.trust.value})",
             form=hinge.record.form.value,
