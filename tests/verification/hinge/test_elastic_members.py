@@ -2,8 +2,8 @@
 
 A member of six segments without hinges of its own, in both kernels.  With E I, mass per length m, length L:
 
-    deflection of a cantilever under a force at its tip        F L^3/(3 E I) + F L/(G A_s)
-    of a guided column                                         F L^3/(12 E I) + F L/(G A_s)
+    deflection of a cantilever under a force at its tip        F L^3/(3 E I)
+    of a guided column                                         F L^3/(12 E I)
     first frequency                                            c^2/(2 pi L^2) sqrt(E I/m)
 
 with c = 1.8751 clamped and free, pi between pins, 4.7300 between clamps, and for a cantilever with the mass
@@ -16,9 +16,8 @@ moment over curvature the tip moves by the double integral of the curvature. Twe
 3 %, the error of their quadrature.
 
 Shear: the flow in a thin square tube of the side b is t b s/2 from the middle of its flanges and
-t (3 b^2/8 - s^2/2) from that of its webs, so that A_s = 5/3 b t. Members of 4 to 50 depths deflect by
-F L/(G A_s) more than by bending (Timoshenko), within 0.5 %: from 10 depths on shear was once left out, and a
-member of ten depths was 11 % stiffer or not by the rounding of its length.
+t (3 b^2/8 - s^2/2) from that of its webs, so that A_s = 5/3 b t. Members shorter than ten depths deflect by
+F L/(G A_s) more (Timoshenko), within 0.5 %.
 
 Folds of a portal with 6 and 8 segments are those with 24 within 4 %, in at most three times the steps of
 rigid bars.
@@ -50,6 +49,7 @@ from crumple.structure import (
     placed_hinges,
     with_elastic_members,
 )
+from crumple.structure.hinges.elastic_members import shear_stretch
 from crumple.structure.hinges.shares import joint_twists
 
 LENGTH = 2.0
@@ -111,14 +111,15 @@ def test_stiffness_is_that_of_the_beam(kernel, end, factor, record_figure):
     structure = beam(CLAMP, end, loads=[pushed])
     result = solved(structure, 1.0, 0.01, kernel)
     stiffness = force / result["node.b.displacement.z"][-1]
-    expected = 1.0 / (LENGTH**3 / (factor * rigidity(structure)) + LENGTH / SHEAR_STIFFNESS)
-    record_figure("stiffness", stiffness, expected, 0.005, "N/m", relative=True)
+    record_figure(
+        "stiffness", stiffness, factor * rigidity(structure) / LENGTH**3, 0.005, "N/m", relative=True
+    )
 
 
 @pytest.mark.parametrize("kernel", KERNELS)
-@pytest.mark.parametrize("depths", [4.0, 6.0, 9.0, 10.0, 20.0])
+@pytest.mark.parametrize("depths", [4.0, 6.0, 9.0])
 @pytest.mark.parametrize(("end", "factor"), [(None, 3.0), (GUIDE, 12.0)], ids=["cantilever", "guided"])
-def test_members_shear(kernel, depths, end, factor, record_figure):
+def test_short_members_shear(kernel, depths, end, factor, record_figure):
     length, force = depths * 0.04, 20.0
     pushed = {"node": "b", "force": {"z": {"step5": {"x0": 0.0, "h0": 0.0, "x1": 1.0, "h1": force}}}}
     structure = beam(CLAMP, end, length=length, loads=[pushed])
@@ -126,6 +127,11 @@ def test_members_shear(kernel, depths, end, factor, record_figure):
     flexibility = length**3 / (factor * rigidity(structure)) + length / SHEAR_STIFFNESS
     found = result["node.b.displacement.z"][-1] / force
     record_figure("flexibility", found, flexibility, 0.005, "m/N", relative=True)
+
+
+def test_rounding_does_not_decide_whether_a_member_of_ten_depths_shears():
+    for length in (0.4, 0.4 * (1.0 - 1e-12), 0.4 * (1.0 + 1e-12)):
+        assert shear_stretch(beam(CLAMP, None, length=length), "beam", "y") == 0.0
 
 
 def with_tip_mass(ratio):

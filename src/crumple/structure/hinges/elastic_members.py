@@ -43,6 +43,10 @@ DAMPING = 1e-5
 f times it of critical damping, 1 % at 318 Hz and 100 % at 32 kHz."""
 LAW_TURNS = np.radians(np.arange(0.0, 41.0))
 """Rotations at which the largest moment of a fold is sought [rad]: walls that harden reach it later."""
+SLENDER = 10.0
+"""Length over depth from which the deflection by shear is neglected."""
+ROUNDING = 1e-9
+"""Share of the length that does not count there: many a member has ten depths."""
 IMPACT = 0.5
 """Longest motion in which members bend unless the input says so [s]."""
 KEPT = 1024
@@ -125,13 +129,16 @@ def joint_stations(
 def shear_stretch(structure: StructureParts, member: str, axis: Axis) -> float:
     """Square of the length at which an elastic member shears as much as it bends, E I/(G A_s) [m^2].
 
-    0 for rigid members.
+    0 for rigid members, and for those of at least `SLENDER` depths.
     """
     if segments_of(structure, member) == 0:
         return 0.0
     from crumple.section.wall_section import walls_of  # noqa: PLC0415  (rigid members need no walls)
 
     section, material = structure.section_of(member), structure.material_of(member)
+    depth = float(np.ptp(section.outer_outline() @ _across(axis)))
+    if structure.frame_of(member).length >= (1.0 - ROUNDING) * SLENDER * depth:
+        return 0.0
     spec = structure.members[member]
     area = structure.kept.once(
         "shear area",
@@ -139,6 +146,11 @@ def shear_stretch(structure: StructureParts, member: str, axis: Axis) -> float:
         lambda: walls_of(section).shear_area(axis, material),
     )
     return structure.flexural_rigidity(member, axis) / (material.shear_modulus * area)
+
+
+def _across(axis: Axis) -> Floats:
+    """Direction across a section's axis, (2,)."""
+    return np.array([0.0, 1.0] if axis == "y" else [1.0, 0.0])
 
 
 def yielding_record(structure: StructureParts, member: str, axis: Axis, length: float) -> HingeRecord:
