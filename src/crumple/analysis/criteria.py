@@ -197,6 +197,11 @@ def _in_si(given: Criterion, unit: str, where: str, *, bare: bool = False) -> Cr
         for key, own in (("at_most", unit), ("at_least", unit), ("time", "s"))
         if (value := getattr(given, key)) is not None
     }
+    low, high = numbers.get("at_least", -math.inf), numbers.get("at_most", math.inf)
+    if low > high:
+        what = "no value is within both limits"
+        came, todo = f"at_least {low:g}, at_most {high:g} (SI)", "exchange them, or leave one out"
+        raise InputError(Problem(what, came, "at_least <= at_most", todo, where))
     return given.model_copy(update=numbers)
 
 

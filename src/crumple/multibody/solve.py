@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -31,6 +32,7 @@ from crumple.multibody.checks import trust
 from crumple.multibody.checks.collapse import changed_capacities, collapse_log, not_unique, scaled_hinge
 from crumple.multibody.checks.overlap import obstacle_overlap_warnings
 from crumple.multibody.checks.physics import physics_cautions
+from crumple.multibody.checks.struck import untouched
 from crumple.multibody.kernel_choice import why_spatial
 from crumple.multibody.planar.solver import TreeSolver
 from crumple.multibody.run import (
@@ -45,7 +47,14 @@ from crumple.multibody.run import (
 )
 from crumple.multibody.spatial.solver import SpatialSolver
 from crumple.result import Provenance, Result, missing_pictures, sentences
-from crumple.structure import Structure, any_automatic, law_use_about, placed_hinges, with_elastic_members
+from crumple.structure import (
+    Stage,
+    Structure,
+    any_automatic,
+    law_use_about,
+    placed_hinges,
+    with_elastic_members,
+)
 from crumple.text.names import listed
 
 FORK = 0.05
@@ -217,6 +226,10 @@ def _doubt(
     return not_unique(runs)
 
 
+def _is_in(obstacle: str, stages: Sequence[Stage]) -> bool:
+    return any(stage.obstacles is None or obstacle in stage.obstacles for stage in stages)
+
+
 def _result(
     structure: Structure,
     run: Run,
@@ -232,7 +245,8 @@ def _result(
     bound = run.settings.energy_residual_bound
     status, reason = outcome_status(solved.outcome, solved.reason, solved.residual, bound)
     slow = [stage.name for stage in run.stages if stage.kind == "quasi-static"]
-    cautions = physics_cautions(structure, solved, slow=slow)
+    absent = {name for name in structure.obstacles if run.stages and not _is_in(name, run.stages)}
+    cautions = (*untouched(structure, solved, absent), *physics_cautions(structure, solved, slow=slow))
     if status.ok and any(caution.violation for caution in cautions):
         status = Status.IMPOSSIBLE
         reason = " ".join(sentences(caution for caution in cautions if caution.violation))

@@ -153,6 +153,10 @@ def test_mistakes_have_lines(tmp_path, change, what):
         ("{channel: hinge.rot.rotation, at_most: 25 deg}", "no such channel"),
         ("{channel: hinge.root.rotation, at_most: 25 mm}", "25 mm"),
         ("{channel: hinge.root.rotation}", "limit is missing"),
+        (
+            "{channel: hinge.root.rotation, at_most: 5 deg, at_least: 20 deg}",
+            "no value is within both limits",
+        ),
         ("{channel: hinge.root.rotation, take: at, at_most: 25 deg}", "belong together"),
         ("{channel: hinge.root.rotation, take: at, time: 5 s, at_most: 25 deg}", "after the end of the run"),
     ],

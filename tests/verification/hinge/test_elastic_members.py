@@ -49,9 +49,13 @@ from crumple.structure import (
     placed_hinges,
     with_elastic_members,
 )
+from crumple.structure.hinges.elastic_members import shear_stretch
+from crumple.structure.hinges.shares import joint_twists
 
 LENGTH = 2.0
 STRONG, MILD = 3e9, 300e6
+SHEAR_STIFFNESS = 210e9 / 2.6 * 5.0 / 3.0 * 0.038 * 0.002
+"""G A_s of a tube of 40x40x2 mm [N]."""
 KERNELS = ("tree", "spatial")
 CLAMP, PIN, ROLLER = "all", ["x", "y", "z", "rx", "rz"], ["y", "z", "rx", "rz"]
 GUIDE, SLEEVE = ["y", "rx", "ry", "rz"], ["y", "z", "rx", "ry", "rz"]
@@ -120,10 +124,14 @@ def test_short_members_shear(kernel, depths, end, factor, record_figure):
     pushed = {"node": "b", "force": {"z": {"step5": {"x0": 0.0, "h0": 0.0, "x1": 1.0, "h1": force}}}}
     structure = beam(CLAMP, end, length=length, loads=[pushed])
     result = solved(structure, 1.0, 0.01, kernel)
-    shear_stiffness = 210e9 / 2.6 * 5.0 / 3.0 * 0.038 * 0.002
-    flexibility = length**3 / (factor * rigidity(structure)) + length / shear_stiffness
+    flexibility = length**3 / (factor * rigidity(structure)) + length / SHEAR_STIFFNESS
     found = result["node.b.displacement.z"][-1] / force
     record_figure("flexibility", found, flexibility, 0.005, "m/N", relative=True)
+
+
+def test_rounding_does_not_decide_whether_a_member_of_ten_depths_shears():
+    for length in (0.4, 0.4 * (1.0 - 1e-12), 0.4 * (1.0 + 1e-12)):
+        assert shear_stretch(beam(CLAMP, None, length=length), "beam", "y") == 0.0
 
 
 def with_tip_mass(ratio):
@@ -312,6 +320,40 @@ def test_a_member_between_corners_twists_as_a_whole(order):
     ]
     section, steel = structure.section_of("bc"), structure.material_of("bc")
     assert twists == [pytest.approx(steel.shear_modulus * section.torsion_constant / 0.5)]
+    # rounding decided which of two that are equally near to the middle twists
+    for second in (0.2 - 1e-15, 0.2, 0.2 + 1e-15):
+        assert joint_twists(structure, "bc", [0.1, second, 0.3, 0.4]) == {second: pytest.approx(0.5)}
+
+
+PORTAL = """crumple: 1
+materials:
+  s: {{youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 300 MPa}}
+sections: {{t: {{type: square_tube, side: 40 mm, thickness: 2 mm}}}}
+nodes: {{a: [0 m, 0 m, 0 m], b: [0 m, 0 m, 0.25 m], c: [0.5 m, 0 m, 0.25 m], d: [0.5 m, 0 m, 0 m]}}
+members: {{{members}}}
+hinges: auto
+supports: {{a: {{node: a, fix: all}}, d: {{node: d, fix: all}}}}
+masses: {{m: {{node: b, mass: 40 kg}}}}
+initial_velocity: [{{nodes: [b], translation: [4 m/s, 0 m/s, {across}]}}]
+analysis: {{duration: 20 ms}}
+"""
+
+
+@pytest.mark.parametrize("across", ["0 m/s", "1 m/s"])
+def test_joints_yield_alike_whichever_member_has_the_hinge_of_a_corner(across):
+    """The corner is a fold at the end of both members: what lies between it and another hinge yields."""
+    bars = {
+        name: f"{name}: {{nodes: [{name[0]}, {name[1]}], section: t, material: s}}"
+        for name in ("ab", "bc", "cd")
+    }
+    found = []
+    for order in (("ab", "bc", "cd"), ("bc", "ab", "cd"), ("cd", "bc", "ab")):
+        analysis = loads(PORTAL.format(members=", ".join(bars[name] for name in order), across=across))
+        structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
+        joints = [joint for joint in placed_hinges(structure) if not joint.plastic]
+        firm = max(joint.law.moment for joint in joints) / 10.0
+        found.append({joint.name: joint.law.moment > firm for joint in joints})
+    assert found[0] == found[1] == found[2]
 
 
 THICK = """

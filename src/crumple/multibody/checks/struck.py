@@ -1,4 +1,4 @@
-"""Obstacles that meet what cannot give way: where they strike between hinges, and when they press slowly.
+"""Obstacles that meet what cannot give way (between hinges, or slowly), and obstacles that meet nothing.
 
 Members with hinges of the input's own may have none where an obstacle strikes between their nodes.
 
@@ -9,11 +9,14 @@ Members without any hinge are meant to keep their shape.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 
 import numpy as np
 
+from crumple._core.outcome import Outcome
 from crumple.multibody.answer.solved import Solved
+from crumple.multibody.checks.names import named
+from crumple.numeric.arrays import Floats
 from crumple.result import Caution
 from crumple.section import AXES, half_fold_length
 from crumple.structure import Structure, plastic_hinges
@@ -104,6 +107,51 @@ def pressed_beyond(structure: Structure, solved: Solved, slow: Collection[str]) 
                 "nothing gives way there, and the force is not to be used. Let members bend and shorten "
                 "(analysis.multibody.members: elastic, or 'axial: true' of hinges).",
             )
+
+
+def untouched(structure: Structure, solved: Solved, absent: Collection[str] = ()) -> Iterator[Caution]:
+    """A caution for obstacles that no member touched: all, if none was, else those that moved.
+
+    Parameters
+    ----------
+    structure, solved
+        The structure and its result.
+    absent
+        Obstacles that no stage has.
+
+    Notes
+    -----
+    A ground that waits for parts which do not come that far is no mistake, while something else is struck.
+    """
+    if solved.outcome is not Outcome.COMPLETE:
+        return
+    touched = _touched(structure, solved)
+    present = [name for name in structure.obstacles if name not in absent]
+    channels = {channel.name: channel.values for channel in solved.further}
+    paths = {name: _path(channels, name) for name in present if name not in touched}
+    missed = {name: path for name, path in paths.items() if path > 0.0 or not touched.intersection(present)}
+    if not missed:
+        return
+    moved = [
+        f"{name} (moves {format_quantity(path, 'm', 3)})" if path > 0.0 else name
+        for name, path in missed.items()
+    ]
+    alone, time = len(missed) == 1, format_quantity(float(solved.time[-1]), "s", 3)
+    text = (
+        f"{named('Obstacle', moved)} touch{'es' if alone else ''} nothing in {time}: the results are those "
+        f"without {'it' if alone else 'them'}. Check place, direction and velocity, of the structure too, "
+        "and the duration."
+    )
+    for name, path in missed.items():
+        yield Caution("untouched_obstacle", path, 0.0, "m", f"obstacle {name}", text)
+
+
+def _path(channels: Mapping[str, Floats], name: str) -> float:
+    """Largest displacement of an obstacle [m]; 0 for fixed ones."""
+    if f"obstacle.{name}.displacement.x" not in channels:
+        return 0.0
+    travel = [channels[f"obstacle.{name}.displacement.{axis}"] for axis in "xyz"]
+    return float(np.linalg.norm(travel, axis=0).max(initial=0.0))
 
 
 def _touched(structure: Structure, solved: Solved | None) -> set[str]:

@@ -29,6 +29,7 @@ from crumple.numeric.arrays import Floats
 from crumple.structure.checks.at_rest import nothing_acts
 from crumple.structure.checks.standing import standing_doubts
 from crumple.structure.checks.unusual import Unusual, unusual_values
+from crumple.structure.checks.without_effect import without_effect
 from crumple.structure.geometry import NARROWEST
 from crumple.structure.hinges.corners import leaving
 from crumple.structure.keys.stages import Stage
@@ -115,7 +116,7 @@ def input_doubts(
 ) -> tuple[Unusual, ...]:
     """What is to be said of an input before it is solved.
 
-    That nothing acts, unusual values, doubtful members, and standing masses.
+    That nothing acts, or has no effect, unusual values, doubtful members, and standing masses.
 
     Parameters
     ----------
@@ -128,6 +129,7 @@ def input_doubts(
     """
     return (
         *nothing_acts(structure, duration, stages),
+        *without_effect(structure, duration, stages),
         *unusual_values(structure, duration),
         *doubtful_members(structure),
         *standing_doubts(structure, stages),

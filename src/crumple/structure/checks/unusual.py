@@ -4,11 +4,15 @@ Nothing is refused for them.  The ranges are wide, so that whoever is outside of
 
 - Young's modulus 1 to 1000 GPa: magnesium has 45, tungsten 400; lead, the softest in use, 16.
 - Yield, ultimate and flow stress 1 MPa to 5 GPa: pure lead yields at some 5 MPa, steel wires at 4 GPa.
+- Flow stress 0.9 to 10 times the yield stress: metals harden in a fold; soft copper up to 10 times.
+- Plastic strain of a hardening curve up to 3, 300 %: drawn wire; more is a strain in per cent.
+- Stress at 100/s 1 to 10 times the static one: of the laws in use, mild steel has the most, 2.2 times.
 - Density 500 to 25 000 kg/m3: lithium, the lightest metal, has 534, osmium, the heaviest, 22 590.
 - Wall thickness 0.02 to 100 mm: foil of honeycomb has 0.03 mm; thicker plates are not thin-walled frames.
 - Largest side of a section 1 mm to 10 m: from a capillary to a box girder.
 - Length of a member 1 mm to 1 km: bars between hinges are longer than their folds; no frame has a longer one.
 - Mass of a lump or obstacle up to 100 000 t: a loaded ship.  Small ones do no harm.
+- Offset of a lump from its node up to 100 m: half of a ship.
 - Speed up to 500 m/s: above it shock waves in the metal matter, which neither solver has.  Of an initial
   rotation the speed of the fastest node counts: the blades of a gas turbine have 400 m/s at their tips.
 - Gravity up to 5000 m/s2: 500 g stand for a hard pulse; 9810 is the number in mm/s2.
@@ -24,10 +28,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from crumple.material import HardeningTable
 from crumple.structure.keys.motion import InitialVelocity
 from crumple.structure.parts import StructureParts
 from crumple.text.names import listed
 from crumple.units import format_quantity
+
+RATE = 100.0
+"""Strain rate [1/s] at which rate laws are judged, that of folds in a crash."""
 
 Found = Iterator[tuple[str, float]]
 """Paths and values."""
@@ -66,6 +74,34 @@ def _material(key: str) -> Callable[[StructureParts, float], Found]:
                 yield f"materials.{name}.{key}", value
 
     return values
+
+
+def _flow_ratios(structure: StructureParts, duration: float) -> Found:
+    for name, material in structure.materials.items():
+        given = (material.flow_stress, material.yield_stress)
+        # a stress in a wrong unit has its own sentence
+        if material.flow_stress is not None and all(one and 1e6 <= one <= 5e9 for one in given):
+            yield f"materials.{name}.flow_stress", material.flow_stress / material.yield_stress
+
+
+def _plastic_strains(structure: StructureParts, duration: float) -> Found:
+    for name, material in structure.materials.items():
+        curve = None if material.hardening is None else material.hardening.curve(material.yield_stress)
+        if isinstance(curve, HardeningTable):
+            yield f"materials.{name}.hardening.plastic_strain", max(curve.plastic_strain)
+
+
+def _rate_factors(structure: StructureParts, duration: float) -> Found:
+    for name, material in structure.materials.items():
+        for key in ("yield_rate", "flow_rate"):
+            given = getattr(material, key)
+            if given is not None:
+                yield f"materials.{name}.{key}", float(given.law().factor(RATE))
+
+
+def _offsets(structure: StructureParts, duration: float) -> Found:
+    for name, mass in structure.masses.items():
+        yield f"masses.{name}.offset", math.hypot(*mass.offset)
 
 
 def _thicknesses(structure: StructureParts, duration: float) -> Found:
@@ -128,11 +164,15 @@ USUAL = (
     Usual("the yield stress of a metal", "Pa", 1e6, 5e9, _material("yield_stress")),
     Usual("the ultimate strength of a metal", "Pa", 1e6, 5e9, _material("ultimate_stress")),
     Usual("the flow stress of a metal", "Pa", 1e6, 5e9, _material("flow_stress")),
+    Usual("the flow stress over the yield stress", "1", 0.9, 10.0, _flow_ratios, " of the yield stress"),
+    Usual("the largest plastic strain of a hardening curve", "1", 0.0, 3.0, _plastic_strains),
+    Usual("the stress at a strain rate of 100/s", "1", 1.0, 10.0, _rate_factors, " times as strong at 100/s"),
     Usual("the density of a metal", "kg/m^3", 500.0, 25e3, _material("density")),
     Usual("the wall thickness of a thin-walled section", "m", 2e-5, 0.1, _thicknesses),
     Usual("the largest side of a thin-walled section", "m", 1e-3, 10.0, _sides),
     Usual("the length of a member", "m", 1e-3, 1e3, _lengths),
     Usual("a mass", "kg", 0.0, 1e8, _masses),
+    Usual("the offset of a mass from its node", "m", 0.0, 100.0, _offsets),
     Usual("the speed of a crash", "m/s", 0.0, 500.0, _speeds),
     Usual("the speed of a crash", "m/s", 0.0, 500.0, _tip_speeds, " at the fastest node"),
     Usual("gravity", "m/s^2", 0.0, 5e3, lambda s, _: iter([("gravity", math.hypot(*s.gravity))])),

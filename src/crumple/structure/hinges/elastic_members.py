@@ -45,6 +45,8 @@ LAW_TURNS = np.radians(np.arange(0.0, 41.0))
 """Rotations at which the largest moment of a fold is sought [rad]: walls that harden reach it later."""
 SLENDER = 10.0
 """Length over depth from which the deflection by shear is neglected."""
+ROUNDING = 1e-9
+"""Share of the length that does not count there: many a member has ten depths."""
 IMPACT = 0.5
 """Longest motion in which members bend unless the input says so [s]."""
 KEPT = 1024
@@ -135,7 +137,7 @@ def shear_stretch(structure: StructureParts, member: str, axis: Axis) -> float:
 
     section, material = structure.section_of(member), structure.material_of(member)
     depth = float(np.ptp(section.outer_outline() @ _across(axis)))
-    if structure.frame_of(member).length >= SLENDER * depth:
+    if structure.frame_of(member).length >= (1.0 - ROUNDING) * SLENDER * depth:
         return 0.0
     spec = structure.members[member]
     area = structure.kept.once(

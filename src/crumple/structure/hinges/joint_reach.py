@@ -22,7 +22,7 @@ from crumple.structure.geometry import NARROWEST
 from crumple.structure.hinges.corners import corners, is_whole, leaving
 from crumple.structure.keys.obstacles import Obstacle
 from crumple.structure.parts import StructureParts
-from crumple.structure.struck_places import LEAST, axis_gaps
+from crumple.structure.struck_places import LEAST, PLACES, axis_gaps
 
 LARGEST_SHARE = 0.35
 """Share of a member that a joint takes at most."""
@@ -75,17 +75,17 @@ def _strikes_joint(structure: StructureParts) -> bool:
 
 
 def _nearest_is_joint(structure: StructureParts, obstacle: Obstacle) -> bool:
-    """Whether one of the places of the members' axes nearest to an obstacle at the start is a rigid joint."""
+    """Whether the nearest place of the members' axes to an obstacle, at the start, is a rigid joint.
+
+    Of a member that lies along the obstacle all places are equally near, its joints among them.
+    """
     names = [name for name in obstacle.members or structure.members if structure.has_line(name)]
     if not names:
         return False
     gaps = axis_gaps(structure, obstacle, names)
-    nearest = gaps.min() + LEAST
-    return any(
-        gap <= nearest and joint_reach(structure, name, node) > 0.0
-        for name, own in zip(names, gaps, strict=True)
-        for node, gap in zip(structure.members[name].nodes, (own[0], own[-1]), strict=True)
-    )
+    nearest = np.argwhere(gaps <= gaps.min() + LEAST)
+    ends = {(names[which], int(PLACES[place])) for which, place in nearest if PLACES[place] in (0.0, 1.0)}
+    return any(joint_reach(structure, name, structure.members[name].nodes[end]) > 0.0 for name, end in ends)
 
 
 def _half_depth(structure: StructureParts, member: str, direction: Floats) -> float:

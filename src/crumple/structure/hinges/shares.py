@@ -174,7 +174,7 @@ def joint_twists(structure: StructureParts, member: str, stations: Sequence[floa
 
     An elastic member whose hinges twist, or would but for corners at its ends, twists at every joint if its
     metal hardens, since its walls then yield over a length.  Else it twists at its hinges, or, if none of
-    these does, at the joint nearest its middle.
+    these does, at the joint nearest its middle; of two that are equally near, at the first.
     """
     spec = structure.members[member]
     if not stations or not spec.elastic:
@@ -188,7 +188,8 @@ def joint_twists(structure: StructureParts, member: str, stations: Sequence[floa
         points = sorted([*own, *stations])
         lengths = dict(zip(points, tributary_lengths(points, length, rigid), strict=True))
         return {at: lengths[at] for at in stations}
-    middle = min(stations, key=lambda at: abs(at - 0.5 * length))
+    # two may be equally near but for rounding: then the first
+    middle = min(stations, key=lambda at: (round(abs(at / length - 0.5), 9), at))
     return {} if own else {middle: length - sum(b - a for a, b in rigid)}
 
 

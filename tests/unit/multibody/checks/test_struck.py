@@ -125,3 +125,46 @@ def test_the_force_at_the_end_of_an_impact_is_not_that_of_the_slow_stage_after_i
     solved = SimpleNamespace(stages=stages, time=np.array([0.0, 0.01, 0.02]), further=force)
     assert list(pressed_beyond(structure, solved, ["crush"])) == []
     assert [one.code for one in pressed_beyond(structure, solved, ["push"])] == ["pressed_beyond"]
+
+
+MISSED = """crumple: 1
+materials: {s: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 355 MPa}}
+sections: {t: {type: square_tube, side: 50 mm, thickness: 2 mm}}
+nodes: {a: [0 m, 0 m, 0 m], b: [0.5 m, 0 m, 0 m]}
+members: {m: {nodes: [a, b], section: t, material: s}}
+hinges: auto
+supports: {a: {node: a, fix: all}}
+masses: {b: {node: b, mass: 5 kg}}
+"""
+AWAY = (
+    "{type: sphere, point: [0.5 m, 0 m, 0.2 m], radius: 80 mm, mass: 10 kg, velocity: [0 m/s, 0 m/s, 3 m/s]}"
+)
+NEAR = AWAY.replace("0 m/s, 3 m/s", "0 m/s, -20 m/s")
+FLOOR = "{type: plane, point: [0 m, 0 m, -1 m], normal: [0, 0, 1]}"
+THROWN = "initial_velocity: [{translation: [0 m/s, 0 m/s, -4 m/s]}]\n"
+ONLY_BALL = "{stages: [{name: s, duration: 15 ms, obstacles: [ball]}]}"
+
+
+@pytest.mark.parametrize(
+    ("keys", "analysis", "places"),
+    [
+        (f"obstacles: {{ball: {AWAY}}}\n", "{duration: 15 ms}", ["ball"]),
+        (f"obstacles: {{ball: {NEAR}}}\n", "{duration: 15 ms}", []),
+        (f"obstacles: {{floor: {FLOOR}}}\n{THROWN}", "{duration: 15 ms}", ["floor"]),
+        (f"obstacles: {{ball: {NEAR}, floor: {FLOOR}}}\n", "{duration: 15 ms}", []),
+        (f"obstacles: {{ball: {AWAY}, floor: {FLOOR}}}\n", "{duration: 15 ms}", ["ball", "floor"]),
+        (f"obstacles: {{ball: {NEAR}, other: {AWAY}}}\n", "{duration: 15 ms}", ["other"]),
+        (f"obstacles: {{ball: {NEAR}, other: {AWAY}}}\n", ONLY_BALL, []),
+    ],
+)
+def test_an_obstacle_that_nothing_touches_is_named(keys, analysis, places):
+    result = solve(loads(f"{MISSED}{keys}analysis: {analysis}\n"))
+    assert result.status.ok, result.reason
+    own = [one for one in result.cautions if one.code == "untouched_obstacle"]
+    assert [one.place for one in own] == [f"obstacle {place}" for place in places]
+    assert sum("nothing in 15 ms: the results are those without" in text for text in result.warnings) == bool(
+        own
+    )
+    if places == ["ball"]:
+        assert own[0].text.startswith("Obstacle ball (moves 45 mm) touches nothing in 15 ms: ")
+        assert own[0].value == pytest.approx(0.045)

@@ -32,11 +32,21 @@ CHANGES = {
     "yield stress": ("yield_stress: 300 MPa", "yield_stress: 350 Pa"),
     "ultimate strength": ("400 MPa", "400 GPa"),
     "flow stress": ("flow_stress: 350 MPa", "flow_stress: 350 GPa"),
+    "flow stress over the yield stress": ("flow_stress: 350 MPa", "flow_stress: 100 MPa"),
+    "plastic strain of a hardening curve": (
+        "flow_stress: 350 MPa",
+        "hardening: {type: table, plastic_strain: [0, 5, 10], true_stress: [300 MPa, 400 MPa, 420 MPa]}",
+    ),
+    "strain rate of 100/s": (
+        "flow_stress: 350 MPa",
+        "flow_rate: {type: cowper-symonds, D: 1e-9 1/s, q: 5}",
+    ),
     "density": ("7850 kg", "7.85 kg"),
     "wall thickness": ("side: 50 mm, thickness: 2 mm", "side: 9 m, thickness: 200 mm"),
     "largest side": ("side: 50 mm", "side: 50 m"),
     "length of a member": ("[2 m,", "[2000 m,"),
     "mass": ("10 kg}", "1e9 kg}"),
+    "offset of a mass": ("10 kg}", "10 kg, offset: [0 m, 0 m, 500 m]}"),
     "speed": ("5 m/s]", "600 m/s]"),
     "at the fastest node": (
         "translation: [0 m/s, 0 m/s, 5 m/s]",

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from crumple.analysis import loads
 from crumple.hinge import Freedom
 from crumple.section import fold_distance
-from crumple.structure import hinge_places, plastic_hinges, with_elastic_members
+from crumple.structure import Structure, hinge_places, plastic_hinges, with_elastic_members
 from crumple.structure.hinges.joint_reach import LARGEST_SHARE, joint_reach, strikes_joint
 
 T_FRAME = """crumple: 1
@@ -99,6 +101,40 @@ def test_a_joint_is_struck_where_it_is_nearest_to_what_moves():
     # nothing moves; it touches the stem alone
     assert not strikes_joint(struck("[0 m, 0 m, -0.1 m]", more="friction: 0.1").structure)
     assert strikes_joint(struck("[0 m, 0 m, -0.1 m]", more=f"{RISES}, members: [stem]").structure)
+
+
+@pytest.mark.parametrize("turn", [0.0, 5.0, 21.0, 37.0, 83.0, 111.0, 160.0])
+@pytest.mark.parametrize("swapped", [False, True])
+def test_a_pole_along_a_member_is_as_near_to_its_joint_as_to_its_middle(turn, swapped):
+    """Rounding decided which of the places along the arm was the nearest one."""
+    axis = np.array([1.0, 2.0, -1.0])
+    turned = Rotation.from_rotvec(math.radians(turn) * axis / np.linalg.norm(axis)).as_matrix()
+    nodes = {"left": (-0.4, 0, 0), "middle": (0, 0, 0), "tip": (0, 0, 0.4), "foot": (0, 0.4, 0)}
+    ends = {"arm": ("middle", "left"), "stem": ("middle", "tip"), "leg": ("middle", "foot")}
+    pole = {
+        "type": "cylinder",
+        "point": (-0.2, 0.0, -0.1),
+        "axis": (1.0, 0.0, 0.0),
+        "velocity": (0.0, 0.0, 5.0),
+    }
+    steel = {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "density": 7850.0, "yield_stress": 350e6}
+    structure = Structure(
+        materials={"steel": steel},
+        sections={"tube": {"type": "square_tube", "side": 0.04, "thickness": 0.002}},
+        nodes={name: tuple(turned @ place) for name, place in nodes.items()},
+        members={
+            name: {"nodes": pair[::-1] if swapped else pair, "section": "tube", "material": "steel"}
+            for name, pair in ends.items()
+        },
+        hinges="auto",
+        obstacles={
+            "pole": {
+                key: tuple(turned @ np.array(value)) if isinstance(value, tuple) else value
+                for key, value in (pole | {"radius": 0.05, "mass": 20.0}).items()
+            }
+        },
+    )
+    assert strikes_joint(structure)
 
 
 @pytest.mark.parametrize(

@@ -5,17 +5,20 @@ from __future__ import annotations
 from crumple import hinge
 from crumple.hinge import ConstantLaw, Coupling, Form, HingeComponent, HingeRecord
 from crumple.section import Axis, half_fold_length
+from crumple.structure.hinges.corner_laws import corner_laws, corner_name
 from crumple.structure.hinges.elastic_members import yielding_record
 from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.joints.placed_hinge import PlacedHinge, direction_of
-from crumple.structure.hinges.places import HingePlace
-from crumple.structure.hinges.shares import SAME_PLACE, AxisShares, joint_lengths, joint_twists
+from crumple.structure.hinges.places import HingePlace, member_hinge_places
+from crumple.structure.hinges.shares import SAME_PLACE, AxisShares, axes_of, joint_lengths, joint_twists
 from crumple.structure.hinges.spatial_hinges import BENDING, twist_component
 from crumple.structure.parts import StructureParts
 
 FIRM = 100.0
 """Capacity of an elastic joint over the largest capacity of its member's hinges: no impact reaches it, and
 tolerances relative to the largest capacity stay small."""
+NEARLY = 0.7
+"""Cosine between a section axis and a corner's normal from which the member bends about this axis there."""
 
 
 def elastic_joints(
@@ -87,7 +90,8 @@ def _joint_record(
     if structure.members[member].elastic and not _beyond_a_fold(structure, member, axis, station, own):
         return yielding_record(structure, member, axis, length)
     strongest = max(
-        float(curve.moment.max()) for h in own for curve in (h.record.positive, h.record.negative)
+        (float(curve.moment.max()) for h in own for curve in (h.record.positive, h.record.negative)),
+        default=float(yielding_record(structure, member, axis, length).positive.moment.max()),
     )
     stiffness = structure.flexural_rigidity(member, axis) / length
     law = ConstantLaw(FIRM * strongest)
@@ -99,18 +103,37 @@ def _beyond_a_fold(
 ) -> bool:
     """Whether a station lies in a rigid joint, or between an end and a hinge less than one fold away.
 
-    Of a member without hinges none does: nothing else stands for its folds.
+    The hinge of a corner counts in both of its members.  Of a member without hinges no station does: nothing
+    else stands for its folds.
     """
-    if not own:
+    at_corners = _folds_at_corners(structure, member, axis)
+    if not own and not at_corners:
         return False
     first, second = (joint_reach(structure, member, node) for node in structure.members[member].nodes)
     if not first < station < structure.frame_of(member).length - second and (first or second):
         return True
-    folds = [hinge.station for hinge in own if _bends_about(hinge, axis)]
+    folds = [*(hinge.station for hinge in own if _bends_about(hinge, axis)), *at_corners]
     if not folds or min(folds) <= station <= max(folds):
         return False
     nearest = min(folds) if station < min(folds) else max(folds)
     return abs(station - nearest) <= 2.0 * half_fold_length(structure.section_of(member), axis)
+
+
+def _folds_at_corners(structure: StructureParts, member: str, axis: Axis) -> list[float]:
+    """Stations of the corners at the ends of a member whose hinges are in the other member [m]."""
+    frame = structure.frame_of(member)
+    found = []
+    for node, station in zip(structure.members[member].nodes, (0.0, frame.length), strict=True):
+        known = corner_laws(structure).get(node)
+        if known is None or known[0].first == member:
+            continue
+        corner, _ = known
+        places = member_hinge_places(structure, corner.first)
+        several = any(place.name == corner_name(node) and len(axes_of(place)) > 1 for place in places)
+        across = frame.y if axis == "y" else frame.z
+        if several or abs(float(across @ corner.normal)) > NEARLY:
+            found.append(station)
+    return found
 
 
 def _bends_about(hinge: PlacedHinge, axis: Axis) -> bool:
