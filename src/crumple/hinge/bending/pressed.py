@@ -11,8 +11,8 @@ presses on its shoulders, and linear between.  By the normality of plastic flow 
 
     d'(theta) = 2 g F M_0(theta)/F_0^2
 
-so that the fold dissipates M_0 (1 + g (F/F_0)^2) dtheta: the work of M by the rotation, and of F by the depth.
-F is that of collapse at each rotation, with what the ends of the tube carry.
+so that the fold dissipates M_0 (1 + g (F/F_0)^2) dtheta: the work of M by rotation, and of F by depth.  F is
+that of collapse at each rotation, with what the ends of the tube carry.
 
 Derived here; 1.5 and 4 were read off tubes in shells, see docs/theory/dents.md.
 """
@@ -67,7 +67,7 @@ class Press:
     def at_collapse(self, moment: Floats) -> Floats:
         """Force F over F_0 at collapse, at most 1, for moments M_0 of the fold [N m].
 
-        F = (M + M_1)/a_1 + (M + M_2)/a_2, with M from the force, distances a and moments M_1, M_2 at the ends.
+        F = (M + M_1)/a_1 + (M + M_2)/a_2, M by the force, with the distances a and moments M_1, M_2 of ends.
         """
         here = moment * sum(1.0 / span for span in self.spans)
         there = sum(carried / span for carried, span in zip(self.held, self.spans, strict=True))

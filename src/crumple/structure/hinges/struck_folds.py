@@ -76,7 +76,8 @@ def with_dent(
     if not isinstance(structure.section_of(member), RectangularTube):
         return DentedLaw(law, left)
     pole = structure.obstacles[tube.obstacle]
-    assert isinstance(pole, CylinderObstacle) and isinstance(section, RectangularTube)
+    assert isinstance(pole, CylinderObstacle)
+    assert isinstance(section, RectangularTube)
     ends = held[0] * moment, held[1] * moment
     force, half = denting_force(section, material), half_fold_length(section, axis)
     press = Press(force, pole.radius, half, strike.spans, ends)
@@ -137,11 +138,7 @@ def _carried(structure: StructureParts, bent: _Bent, node: str) -> float:
     if holds_rotation(structure, node, bent.about):
         return math.inf
     corner, keys = corner_laws(structure).get(node, (None, None))
-    if (
-        corner is not None
-        and keys is not None
-        and abs(float(bent.about @ np.array(corner.normal))) >= SQUARE
-    ):
+    if corner is not None and keys is not None and abs(float(bent.about @ np.array(corner.normal))) >= SQUARE:
         other = corner.second if corner.first in bent.run.stretches else corner.first
         # pressed towards the other member, the run turns away from it at the corner
         opens = float(leaving(structure, other, node) @ bent.outwards) > 0.0

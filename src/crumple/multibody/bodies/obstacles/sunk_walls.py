@@ -94,7 +94,7 @@ class SunkWall:
             yield SpatialCapsule(self.body, start + shift, self.place + shift, radius)
 
     def rest_of(self, capsule: SpatialCapsule) -> SpatialCapsule | None:
-        """What is left of a capsule of the tube before the wall; the same if it lies elsewhere, None if none."""
+        """What is left of a capsule of the tube before the wall: itself if it lies elsewhere, or nothing."""
         ends = [(float(self.along @ (end - self.place)), end) for end in (capsule.first, capsule.second)]
         nearest, farthest = max(at for at, _ in ends), min(at for at, _ in ends)
         if nearest > SAME or nearest <= -self.length:
@@ -103,6 +103,7 @@ class SunkWall:
             return None
         first, second = (end - max(at + self.length, 0.0) * self.along for at, end in ends)
         return replace(capsule, first=first, second=second)
+
 
 def sunk_walls(structure: Structure, linkage: Linkage, model: SpatialModel) -> tuple[SunkWall, ...]:
     """Walls of all folds under poles; their bodies follow those of a model without obstacles."""
