@@ -117,6 +117,16 @@ void add_drive(Model& model, const nb::tuple& t) {
     model.drives.push_back({index, freedom, entry<double>(t, 4), make_curve(entry<Doubles>(t, 2), entry<Doubles>(t, 3))});
 }
 
+void add_cam(Model& model, const nb::tuple& t) {
+    const int index = entry<int>(t, 0), freedom = entry<int>(t, 1), about = entry<int>(t, 2);
+    require(index >= 0 && index < static_cast<int>(model.joints.size()), "a cam names an unknown joint");
+    Joint& joint = model.joints[static_cast<size_t>(index)];
+    require(freedom < 3 && has(joint, joint.held, freedom), "a cam moves a held translation");
+    require(about >= 3 && about < 6 && !has(joint, joint.rows(), about), "a cam follows a free rotation");
+    require(joint.cam.freedom < 0, "a joint has one cam at most");
+    joint.cam = {freedom, about, make_curve(entry<Doubles>(t, 3), entry<Doubles>(t, 4))};
+}
+
 void add_load(Model& model, const nb::tuple& t) {
     const int body = entry<int>(t, 0);
     require_body(model, body, false);
@@ -211,6 +221,9 @@ Model make_model(const nb::dict& d) {
     for (nb::handle h : entry<nb::list>(d, "hinges")) add_hinge(model, as<nb::dict>(h, "a hinge"));
     for (nb::handle h : entry<nb::list>(d, "drives")) {
         add_drive(model, fields(h, 5, "a drive has joint, freedom, times, rates, start"));
+    }
+    for (nb::handle h : entry<nb::list>(d, "cams")) {
+        add_cam(model, fields(h, 5, "a cam has joint, translation, rotation, angles, slopes"));
     }
     for (nb::handle h : entry<nb::list>(d, "loads")) {
         add_load(model, fields(h, 6, "a load has body, point, force, moment, times, values"));

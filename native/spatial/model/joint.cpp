@@ -11,6 +11,16 @@ Quat half(const Quat& q) { return normalised({q.w + 1, q.v}); }
 
 Vec3 vector(const double* a) { return {a[0], a[1], a[2]}; }
 
+// takes the motion of a cam from a row and its drift
+void follow(const Cam& cam, const Quat& relative, const Mat3& middle, int row, JointGeometry& out) {
+    const int k = cam.about - 3;
+    const double angle = 2 * std::atan2(relative.v[k], relative.w);
+    const Vec3 turns = cam.slope.at_time(angle) * middle.r[k];
+    out.row[row].ma = out.row[row].ma - turns;
+    out.row[row].mb = out.row[row].mb - turns;
+    out.error[row] -= cam.slope.integral_to(angle);
+}
+
 }  // namespace
 
 void locate(const Joint& joint, const Pose& a, const Pose& b, const Target* target, const double* before, JointGeometry& out) {
@@ -42,6 +52,7 @@ void locate(const Joint& joint, const Pose& a, const Pose& b, const Target* targ
         if (freedom < 3) {
             out.row[r] = {own.r[k], cross(ra, own.r[k]), cross(rb, own.r[k])};
             out.error[r] = dot(own.r[k], apart) - (target && held ? target->place[k] : 0);
+            if (held && freedom == joint.cam.freedom) follow(joint.cam, relative, middle, r, out);
             continue;
         }
         const Vec3 d = crossed[k];

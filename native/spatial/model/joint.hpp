@@ -6,6 +6,7 @@
 // components of s are zero.  One formulation thus covers every set of held rotations, at any angle of the free ones.
 #pragma once
 
+#include "hinge/curve.hpp"
 #include "spatial/model/math.hpp"
 
 namespace crumple::spatial {
@@ -14,6 +15,13 @@ constexpr int most_rows = 6;
 
 struct Row {
     Vec3 t, ma, mb;
+};
+
+// A held translation follows a rotation of the joint: over the angle from the first to the second body about an axis of the middle frame,
+// the second body is displaced by the integral of `slope` [m/rad] from its first point on.
+struct Cam {
+    int freedom = -1, about = -1;  // the translation, 0..2, and the rotation, 3..5; -1: none
+    hinge::Curve slope;
 };
 
 struct Joint {
@@ -27,6 +35,7 @@ struct Joint {
     int hinge = -1;
     int drive[6] = {-1, -1, -1, -1, -1, -1};  // index of the drive of every freedom, -1: none
     bool driven = false;
+    Cam cam;
     int rows() const { return held + laws; }
 };
 

@@ -124,6 +124,11 @@ def dent_force(depth: Floats, thickness: float, stress: float) -> Floats:
     return 4.0 * stress * thickness * np.sqrt(2.0 * np.pi * thickness * depth / 3.0)
 
 
+def denting_force(section: RectangularTube, material: Material) -> float:
+    """Largest force [N] with which a pole dents a rectangular tube up to a twentieth of its depth."""
+    return max(CRUSHED[1][:4]) * material.flow_stress * section.thickness**2
+
+
 def left_by_dent(section: CircularTube | RectangularTube, dent: float, depth: float) -> float:
     """Share of the plastic moment that a dent leaves.
 

@@ -37,11 +37,13 @@ TIMES = np.logspace(-5.0, 4.0, 91)
 """Times at which a prescribed motion is looked at for its direction [s]: from impacts to slow pushes."""
 LEAST = 1e-6
 """Displacement that gives a direction, and difference of distances of members that are equally near [m]."""
+KINK = 1e-3
+"""Distance [m] beyond an end that still counts as the end: at a small kink a place is beyond both members."""
 
 
 @dataclass(frozen=True)
 class StruckPlace:
-    """Where an obstacle meets a member; ends count within `LEAST`.
+    """Where an obstacle meets a member; ends count within `KINK`.
 
     Attributes
     ----------
@@ -100,7 +102,7 @@ def _struck_places(structure: StructureParts) -> Mapping[str, tuple[StruckPlace,
         path = _path(structure, obstacle)
         for member in members if path is not None else _nearest(structure, obstacle, members):
             place = _touches(structure, member, name, path)
-            if place is not None and -LEAST <= place.station <= structure.frame_of(member).length + LEAST:
+            if place is not None and -KINK <= place.station <= structure.frame_of(member).length + KINK:
                 found[member] = (*found.get(member, ()), place)
     return found
 

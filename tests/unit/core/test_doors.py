@@ -45,7 +45,7 @@ SPATIAL = """
 import numpy as np
 from crumple._core import _kernels
 k = _kernels.spatial
-lists = ("joints", "hinges", "drives", "loads", "springs", "capsules", "obstacles", "pairs")
+lists = ("joints", "hinges", "drives", "cams", "loads", "springs", "capsules", "obstacles", "pairs")
 def model(**keys):
     body = dict(mass=np.ones(1), inertia=np.eye(3)[None], centre=np.zeros((1, 3)), contact=(0.0, 0.0))
     body |= {name: [] for name in lists} | dict(gravity=[0.0, 0.0, 0.0], length=1.0, breaks=[])
@@ -53,6 +53,7 @@ def model(**keys):
 def run(**keys):
     return k.Simulation(model(**keys), 1e-3, 1e-9, 1e-3)
 held = (-1, 0, [0.0] * 3, list(np.eye(3).ravel()), [True] * 6, False)
+pinned = (-1, 0, [0.0] * 3, list(np.eye(3).ravel()), [True] * 3 + [False] * 3, False)
 surface = dict(coupling=3, rows=[1.0] * 5, power=2.0, torque_power=2.0, torsion=-1, arm=0.0)
 surface |= dict(arm_gains=[], arm_gain_shares=[], growth_rotation=[], growth_share=[])
 nan = float("nan")
@@ -141,6 +142,13 @@ CALLS = {
         "run(joints=[held[:2] + ([0.0],) + held[3:]])",
         "run(drives=[(3, 0, [0.0], [1.0], 0.0)])",
         "run(joints=[held], drives=[(0, 77, [0.0], [1.0], 0.0)])",
+        "run(joints=[held], cams=[(0, 0)])",
+        "run(joints=[held], cams=[(3, 0, 4, [0.0], [0.1])])",
+        "run(joints=[held], cams=[(0, 4, 5, [0.0], [0.1])])",
+        "run(joints=[held], cams=[(0, 0, 4, [0.0], [0.1])])",
+        "run(joints=[pinned], cams=[(0, 0, 77, [0.0], [0.1])])",
+        "run(joints=[pinned], cams=2 * [(0, 0, 4, [0.0], [0.1])])",
+        "run(joints=[pinned], cams=[(0, 0, 4, [0.0], [nan])])",
         "run(loads=[(0, [0.0] * 3, [0.0] * 3)])",
         "run(springs=[(0, -1, [0.0] * 3, [0.0] * 3, 1.0)])",
         "run(capsules=[(0, [0.0] * 3)])",

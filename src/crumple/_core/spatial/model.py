@@ -251,6 +251,22 @@ class SpatialDrive:
     start: float = 0.0
 
 
+@dataclass(frozen=True, eq=False)
+class SpatialCam:
+    """A held translation of a joint that follows one of its rotations.
+
+    Over the angle [rad] by which the second body is turned relative to the first about the axis of the
+    freedom `about`, it is displaced along that of `freedom` by the integral of `slope` [m/rad] from the first
+    angle on, (n,) each; slopes keep their first and last value.
+    """
+
+    joint: int
+    freedom: int
+    about: int
+    angle: Floats
+    slope: Floats
+
+
 class ObstacleKind(IntEnum):
     """Shape of an obstacle."""
 
@@ -338,6 +354,7 @@ class SpatialModel:
     loads: tuple[SpatialLoad, ...] = ()
     springs: tuple[SpatialSpring, ...] = ()
     drives: tuple[SpatialDrive, ...] = ()
+    cams: tuple[SpatialCam, ...] = ()
     obstacles: tuple[SpatialObstacle, ...] = ()
     capsules: tuple[SpatialCapsule, ...] = ()
     contact: SpatialContact = SpatialContact()

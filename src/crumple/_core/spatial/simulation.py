@@ -15,6 +15,7 @@ from crumple._core.hinge import as_list
 from crumple._core.outcome import Outcome
 from crumple._core.records import ComponentRecord, EnergyRecord, HingeEnergyRecord, HingeSummary, named
 from crumple._core.spatial.model import (
+    SpatialCam,
     SpatialCapsule,
     SpatialDrive,
     SpatialJoint,
@@ -281,6 +282,7 @@ def as_dict(model: SpatialModel) -> dict[str, Any]:
             for s in model.springs
         ],
         "drives": [_drive(drive) for drive in model.drives],
+        "cams": [_cam(cam) for cam in model.cams],
         "obstacles": [_obstacle(obstacle) for obstacle in model.obstacles],
         "capsules": [
             (c.body, as_list(c.first), as_list(c.second), c.radius, c.crush_force, _folds(c))
@@ -315,6 +317,10 @@ def _load(load: SpatialLoad) -> tuple[Any, ...]:
 
 def _drive(drive: SpatialDrive) -> tuple[Any, ...]:
     return (drive.joint, drive.freedom, as_list(drive.times), as_list(drive.rates), drive.start)
+
+
+def _cam(cam: SpatialCam) -> tuple[Any, ...]:
+    return (cam.joint, cam.freedom, cam.about, as_list(cam.angle), as_list(cam.slope))
 
 
 def _obstacle(obstacle: SpatialObstacle) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from crumple._core.records import ComponentRecord, HingeEnergyRecord
-from crumple.multibody.bodies.obstacles.faces import Face
+from crumple.multibody.bodies.obstacles.bodies import Touching
 from crumple.numeric.arrays import Floats
 from crumple.result import Channel, DentedWall
 from crumple.result.channels import channel
@@ -24,13 +24,12 @@ class DentHistory:
 
     Attributes
     ----------
-    obstacle, tube
-        What presses it, and what gives way.
+    tube
+        What gives way.
     depth, rate, energy
-        [m], [m/s], [J], (n,) each.
+        [m], [m/s], [J], (n,) each; the energy without that of the fold into which the obstacle sinks.
     """
 
-    obstacle: str
     tube: DentedTube
     depth: Floats
     rate: Floats
@@ -42,32 +41,42 @@ WallMotion = tuple[Floats, Floats]
 
 
 def dent_histories(
-    faces: Iterable[Face], columns: tuple[int, ...], hinge: ComponentRecord, energy: HingeEnergyRecord
+    touching: Touching, columns: tuple[int, ...], hinge: ComponentRecord, energy: HingeEnergyRecord
 ) -> Iterator[DentHistory]:
     """Dents of all tubes.
 
     Parameters
     ----------
-    faces, columns
-        Faces of obstacles, and the first column of every hinge of their model.
+    touching, columns
+        Faces of obstacles and walls of folds, and the first column of every hinge of their model.
     hinge, energy
         Records of the hinges.
     """
-    for face in faces:
+    sunk = {}
+    for wall in touching.walls:
+        column = columns[wall.hinge] + wall.component
+        turned, rate = (wall.law.sense * values[:, column] for values in (hinge.rotation, hinge.rate))
+        slope = np.where(turned > 0.0, wall.law.slope(np.abs(turned)), 0.0)
+        sunk[wall.tube.obstacle, wall.tube.member] = wall.tube, wall.law.depth(turned), slope * rate
+    for face in touching.faces:
         depth, rate = (values[:, columns[face.hinge]] for values in (hinge.rotation, hinge.rate))
         absorbed = [tube.dent.absorbed(np.maximum.accumulate(depth)) for tube in face.tubes]
         total = np.sum(absorbed, axis=0)
         of_face = energy.dissipated[:, face.hinge]
         for tube, own in zip(face.tubes, absorbed, strict=True):
             share = np.divide(own, total, out=np.zeros_like(own), where=total > 0.0)
-            yield DentHistory(face.obstacle, tube, depth, rate, share * of_face)
+            _, deeper, faster = sunk.pop((face.obstacle, tube.member), (tube, 0.0, 0.0))
+            yield DentHistory(tube, depth + deeper, rate + faster, share * of_face)
+    yield from (DentHistory(tube, depth, rate, 0.0 * depth) for tube, depth, rate in sunk.values())
 
 
 def dent_channels(dents: Iterable[DentHistory]) -> Iterator[Channel]:
-    """Depth of the dents of every obstacle; tubes under one obstacle have one depth."""
-    yield from {
-        dent.obstacle: channel(f"obstacle.{dent.obstacle}.dent", dent.depth) for dent in dents
-    }.values()
+    """Depth of the deepest dent of every obstacle."""
+    depths: dict[str, Floats] = {}
+    for dent in dents:
+        name = dent.tube.obstacle
+        depths[name] = np.maximum(depths.get(name, 0.0), dent.depth)
+    yield from (channel(f"obstacle.{name}.dent", depth) for name, depth in depths.items())
 
 
 def wall_motions(dents: Iterable[DentHistory]) -> Mapping[str, WallMotion]:
@@ -89,7 +98,7 @@ def dented_walls(dents: Iterable[DentHistory]) -> tuple[DentedWall, ...]:
         DentedWall(
             dent.tube.member,
             dent.tube.station,
-            dent.obstacle,
+            dent.tube.obstacle,
             float(dent.depth.max()),
             float(dent.energy[-1]),
         )

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from crumple._core.spatial.model import SpatialCapsule
 from crumple.multibody.bodies.capsules import end_body, end_corners, member_capsules, pieces_by_length
 from crumple.multibody.bodies.crumpling_ends import CrumplingEnd, crumpling_ends
 from crumple.multibody.bodies.linkage import GROUND, Linkage
-from crumple.structure import Obstacle, PlaneObstacle, Structure, gap
+from crumple.multibody.bodies.obstacles.sunk_walls import SunkWall
+from crumple.structure import DentedTube, Obstacle, PlaneObstacle, Structure, gap
+from crumple.structure.hinges.runs.straight_runs import straight_run
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,6 +28,9 @@ class Surface:
         As `end_corners`.
     faces
         Points of ends that crumple.
+    walls
+        Capsules of walls into which a pole sinks, and what is left beside them of capsules that this pole
+        meets no more, by their indices.
     """
 
     whole: list[SpatialCapsule]
@@ -32,17 +38,20 @@ class Surface:
     shortened: list[tuple[CrumplingEnd, int, SpatialCapsule | None]]
     corners: list[tuple[SpatialCapsule, set[str], str | None]]
     faces: list[tuple[CrumplingEnd, SpatialCapsule]]
+    walls: list[tuple[SunkWall, set[int], list[SpatialCapsule]]]
 
     @property
     def capsules(self) -> tuple[SpatialCapsule, ...]:
         """All of them."""
         rest = [capsule for *_, capsule in self.shortened if capsule is not None]
+        rest += [capsule for *_, of in self.walls for capsule in of]
         return (*self.whole, *rest, *(ball for ball, *_ in self.corners), *(ball for _, ball in self.faces))
 
     @property
     def members(self) -> tuple[str, ...]:
         """Member of every capsule before the corners."""
-        return (*self.member, *(end.member for end, _, rest in self.shortened if rest is not None))
+        shortened = (end.member for end, _, rest in self.shortened if rest is not None)
+        return (*self.member, *shortened, *(wall.tube.member for wall, _, of in self.walls for _ in of))
 
     @property
     def points(self) -> dict[int, CrumplingEnd]:
@@ -52,12 +61,14 @@ class Surface:
     def owners(self, name: str, obstacle: Obstacle) -> list[set[str]]:
         """Members that an obstacle touches with every capsule; what is held stops nothing but a mass."""
         replaced = {index for end, index, _ in self.shortened if end.obstacle == name}
+        replaced.update(*(cut for wall, cut, _ in self.walls if wall.tube.obstacle == name))
         nodes = {end.node for end, _ in self.faces if end.obstacle == name}
         found = [
             {of} if index not in replaced and _meets(capsule, obstacle) else set()
             for index, (capsule, of) in enumerate(zip(self.whole, self.member, strict=True))
         ]
         found += [_of(end, name) for end, _, rest in self.shortened if rest is not None]
+        found += [_of(wall.tube, name) for wall, _, of in self.walls for _ in of]
         if isinstance(obstacle, PlaneObstacle):
             # what starts inside is met with the round ends of capsules, which are less far out
             found += [
@@ -76,12 +87,16 @@ def _meets(capsule: SpatialCapsule, obstacle: Obstacle) -> bool:
     return capsule.body != GROUND or obstacle.mass is not None
 
 
-def _of(end: CrumplingEnd, obstacle: str) -> set[str]:
-    return {end.member} if end.obstacle == obstacle else set()
+def _of(part: CrumplingEnd | DentedTube, obstacle: str) -> set[str]:
+    return {part.member} if part.obstacle == obstacle else set()
 
 
 def surface_of(
-    structure: Structure, linkage: Linkage, moving: list[SpatialCapsule], member: list[str]
+    structure: Structure,
+    linkage: Linkage,
+    moving: list[SpatialCapsule],
+    member: list[str],
+    walls: Sequence[SunkWall],
 ) -> Surface:
     """What obstacles can touch; `moving` and `member` are the capsules of all pieces that move."""
     capsules, owners = list(moving), list(member)
@@ -103,4 +118,19 @@ def surface_of(
         if member[index] == end.member and end.reaches(capsule)
     ]
     faces = [(end, ball) for end, body in ends for ball in end.face(structure, body)]
-    return Surface(capsules, owners, shortened, corners, faces)
+    sunk = [(wall, *_beside(structure, wall, capsules, owners)) for wall in walls]
+    return Surface(capsules, owners, shortened, corners, faces, sunk)
+
+
+def _beside(
+    structure: Structure, wall: SunkWall, capsules: list[SpatialCapsule], member: list[str]
+) -> tuple[set[int], list[SpatialCapsule]]:
+    """Which capsules of its straight run a wall cuts, and what is left of them, with those of the wall."""
+    run = straight_run(structure, wall.tube.member).stretches
+    cut, left = set(), list(wall.capsules(structure))
+    for index, (capsule, of) in enumerate(zip(capsules, member, strict=True)):
+        rest = wall.rest_of(capsule) if of in run else capsule
+        if rest is not capsule:
+            cut.add(index)
+            left += [] if rest is None else [rest]
+    return cut, left

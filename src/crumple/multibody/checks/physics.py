@@ -379,8 +379,8 @@ def crumpled_ends(structure: Structure, solved: Solved) -> Iterator[Caution]:
 def deep_dents(solved: Solved) -> Iterator[Caution]:
     """Obstacles that press tubes flatter than the laws of dents were compared for."""
     deep = [dent for dent in solved.dents if dent.depth.max(initial=0.0) > dent.tube.dent.compared]
-    for obstacle in dict.fromkeys(dent.obstacle for dent in deep):
-        dents = [dent for dent in deep if dent.obstacle == obstacle]
+    for obstacle in dict.fromkeys(dent.tube.obstacle for dent in deep):
+        dents = [dent for dent in deep if dent.tube.obstacle == obstacle]
         depth = max(float(dent.depth.max()) for dent in dents)
         limit = min(dent.tube.dent.compared for dent in dents)
         members = list(dict.fromkeys(dent.tube.member for dent in dents))

@@ -16,7 +16,7 @@ from crumple.multibody.answer.hinge_histories import RecordedHinge, Rows
 from crumple.multibody.answer.poses import SpatialEndPoses
 from crumple.multibody.bodies.dead_centres import DeadCentres, dead_centres
 from crumple.multibody.bodies.initial_motion import Placed, spatial_initial_motion
-from crumple.multibody.bodies.linkage import Linkage, check_inertia, link
+from crumple.multibody.bodies.linkage import GROUND, Linkage, check_inertia, link
 from crumple.multibody.bodies.obstacles.bodies import Touching, with_obstacles
 from crumple.multibody.run import Run
 from crumple.multibody.spatial.crushing_contacts import with_crushing
@@ -94,7 +94,7 @@ class SpatialCase:
     @property
     def own_bodies(self) -> int:
         """See `Case`: thrown obstacles have a velocity of their own."""
-        return len(self.linkage.bodies)
+        return len(self.linkage.bodies) + len(self.touching.walls)
 
     @property
     def reference_points(self) -> Floats:
@@ -193,7 +193,7 @@ def recorded_hinges(linkage: Linkage, model: SpatialModel) -> tuple[RecordedHing
 def recorded_dents(touching: Touching, rows: Rows) -> tuple[DentHistory, ...]:
     """Dents of all tubes."""
     columns = tuple(touching.model.component_offsets)
-    return tuple(dent_histories(touching.faces, columns, rows.hinge, rows.hinge_energy))
+    return tuple(dent_histories(touching, columns, rows.hinge, rows.hinge_energy))
 
 
 def spatial_case(structure: Structure, run: Run) -> SpatialCase:
@@ -280,11 +280,15 @@ def added_motion(
     Bodies are where they are `now`.  Thrown obstacles are thrown in the `first` stage.
     """
     start = spatial_initial_motion(structure, linkage, stage.initial_velocity, stage.impulses, now)
-    further = np.zeros((len(touching.velocity), 6))
-    energy = start.given_energy
+    further = np.zeros((len(touching.walls) + len(touching.velocity), 6))
+    for row, wall in zip(further, touching.walls, strict=False):
+        if wall.own != GROUND:
+            row[:] = start.velocity[wall.own]
+            arm = wall.place - linkage.bodies[wall.own].centre
+            row[3:] += np.cross(row[:3], arm if now is None else now.turned(wall.own, arm))
     if first:
-        further[:, 3:] = touching.velocity
-        masses = [body.mass for body in touching.model.bodies[len(linkage.bodies) :]]
-        energy += float(np.sum(masses * np.sum(touching.velocity**2, axis=1)) / 2.0)
+        further[len(touching.walls) :, 3:] = touching.velocity
+    masses = [body.mass for body in touching.model.bodies[len(linkage.bodies) :]]
+    energy = start.given_energy + float(np.sum(masses * np.sum(further[:, 3:] ** 2, axis=1)) / 2.0)
     velocity = np.concatenate([start.velocity, further])
     return velocity, np.concatenate([start.impulse, np.zeros_like(further)]), energy

@@ -301,12 +301,11 @@ class SpatialSolver:
         )
 
     def _obstacle_channels(self, record: SpatialRecord) -> Iterator[Channel]:
-        first = len(self.linkage.connections)
         for k, name in enumerate(self._structure.obstacles):
             columns = {"force": record.obstacle_force[:, k]}
             joint = self._touching.joint.get(name)
             if joint is not None:
-                body = len(self.linkage.bodies) + joint - first
+                body = self._touching.model.joints[joint].second
                 start = self._touching.model.bodies[body].centre
                 columns["displacement"] = record.centre[:, body] - start
                 columns["velocity"] = record.velocity[:, body, 3:]

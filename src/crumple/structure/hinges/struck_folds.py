@@ -13,7 +13,8 @@ import numpy as np
 
 from crumple.hinge import HingeLaw
 from crumple.hinge.bending.dented import DentedLaw
-from crumple.hinge.dent import Dent, dent_of, left_in_bending
+from crumple.hinge.bending.pressed import Press, PressedLaw
+from crumple.hinge.dent import Dent, dent_of, denting_force, left_in_bending
 from crumple.hinge.registry import AUTO
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
@@ -60,31 +61,62 @@ def with_dent(
     reference, law
         What the input says of its law, which it may name itself; and the law.
     """
-    if not structure.obstacles:
+    if not structure.obstacles or automatic_law(structure, reference) is None:
         return law
-    section = _walls(structure, member)
-    if section is None:
+    tube, section = dent_at_fold(structure, member, name, axis), _walls(structure, member)
+    if tube is None or section is None:
         return law
+    strike, across = strikes_on(structure, member)[name], _across(structure, member, axis)
+    # the struck wall is compressed: +z by a negative rotation about y, +y by a positive one about z
+    sense = 1 if (float(tube.outwards @ across) > 0.0) == (axis == "z") else -1
+    material, moment = _metal(structure, member), float(law.moment_capacity(0.0, sense))
+    bent = _Bent(straight_run(structure, member), structure.frame_of(member).axis(axis), tube.outwards)
+    held = _held(structure, bent, strike, moment)
+    left = left_in_bending(section, material, tube.depth, moment, strike.spans, held)
+    if not isinstance(structure.section_of(member), RectangularTube):
+        return DentedLaw(law, left)
+    pole = structure.obstacles[tube.obstacle]
+    assert isinstance(pole, CylinderObstacle)
+    assert isinstance(section, RectangularTube)
+    ends = held[0] * moment, held[1] * moment
+    force, half = denting_force(section, material), half_fold_length(section, axis)
+    press = Press(force, pole.radius, half, strike.spans, ends)
+    # what presses beside the fold dents the tube as a force does that bends it later
+    dented = DentedLaw(law, 1.0 - (1.0 - press.on_fold) * (1.0 - left))
+    return PressedLaw(dented, press, sense) if press.on_fold > 0.0 else dented
+
+
+def dent_at_fold(structure: StructureParts, member: str, name: str, axis: Axis) -> DentedTube | None:
+    """Dent of a tube that lies at an automatic hinge and is bent there about an axis of the section, or None.
+
+    Parameters
+    ----------
+    structure, member, name, axis
+        The hinge, and the axis.
+    """
     strike = strikes_on(structure, member).get(name)
-    if strike is None or automatic_law(structure, reference) is None:
-        return law
-    across = structure.frame_of(member).axis("z" if axis == "y" else "y")
-    run = straight_run(structure, member)
-    for tube in (tube for obstacle in strike.obstacles for tube in dented_tubes(structure, obstacle)):
-        bends = isinstance(section, CircularTube) or abs(float(tube.outwards @ across)) >= SQUARE
-        if tube.member in run.stretches and bends:
-            # the struck wall is compressed: +z by a negative rotation about y, +y by a positive one about z
-            sense = 1 if (float(tube.outwards @ across) > 0.0) == (axis == "z") else -1
-            material, moment = _metal(structure, member), float(law.moment_capacity(0.0, sense))
-            press = _Press(run, structure.frame_of(member).axis(axis), tube.outwards)
-            held = _held(structure, press, strike, moment)
-            left = left_in_bending(section, material, tube.depth, moment, strike.spans, held)
-            return DentedLaw(law, left)
-    return law
+    if strike is None:
+        return None
+    stretches, across = straight_run(structure, member).stretches, _across(structure, member, axis)
+    round_tube = isinstance(structure.section_of(member), CircularTube)
+    return next(
+        (
+            tube
+            for obstacle in strike.obstacles
+            for tube in dented_tubes(structure, obstacle)
+            if tube.member in stretches and (round_tube or abs(float(tube.outwards @ across)) >= SQUARE)
+        ),
+        None,
+    )
+
+
+def _across(structure: StructureParts, member: str, axis: Axis) -> Floats:
+    """Axis of a section across the one about which it bends, (3,)."""
+    return structure.frame_of(member).axis("z" if axis == "y" else "y")
 
 
 @dataclass(frozen=True)
-class _Press:
+class _Bent:
     """A tube that a dent bends: its straight run, about which direction, and where the obstacle is, (3,)."""
 
     run: StraightRun
@@ -92,31 +124,27 @@ class _Press:
     outwards: Floats
 
 
-def _held(structure: StructureParts, press: _Press, strike: Strike, moment: float) -> tuple[float, float]:
+def _held(structure: StructureParts, bent: _Bent, strike: Strike, moment: float) -> tuple[float, float]:
     """Shares of a moment [N m] that both ends of a run carry."""
     first, last = (
-        min(1.0, _carried(structure, press, node) / moment) if holds else 0.0
-        for node, holds in zip(press.run.nodes, strike.held, strict=True)
+        min(1.0, _carried(structure, bent, node) / moment) if holds else 0.0
+        for node, holds in zip(bent.run.nodes, strike.held, strict=True)
     )
     return first, last
 
 
-def _carried(structure: StructureParts, press: _Press, node: str) -> float:
+def _carried(structure: StructureParts, bent: _Bent, node: str) -> float:
     """Moment [N m] that a support, the corner or other members carry at an end of a run."""
-    if holds_rotation(structure, node, press.about):
+    if holds_rotation(structure, node, bent.about):
         return math.inf
     corner, keys = corner_laws(structure).get(node, (None, None))
-    if (
-        corner is not None
-        and keys is not None
-        and abs(float(press.about @ np.array(corner.normal))) >= SQUARE
-    ):
-        other = corner.second if corner.first in press.run.stretches else corner.first
+    if corner is not None and keys is not None and abs(float(bent.about @ np.array(corner.normal))) >= SQUARE:
+        other = corner.second if corner.first in bent.run.stretches else corner.first
         # pressed towards the other member, the run turns away from it at the corner
-        opens = float(leaving(structure, other, node) @ press.outwards) > 0.0
+        opens = float(leaving(structure, other, node) @ bent.outwards) > 0.0
         return _most(structure, corner.first, corner.axis, keys, -corner.sense if opens else corner.sense)
-    others = [name for name in structure.members_at.get(node, ()) if name not in press.run.stretches]
-    return sum(_beside_a_joint(structure, name, press.about) for name in others)
+    others = [name for name in structure.members_at.get(node, ()) if name not in bent.run.stretches]
+    return sum(_beside_a_joint(structure, name, bent.about) for name in others)
 
 
 def _beside_a_joint(structure: StructureParts, member: str, about: Floats) -> float:
@@ -144,6 +172,8 @@ class DentedTube:
 
     Attributes
     ----------
+    obstacle
+        Its name.
     member, station
         Where [m].
     nodes
@@ -154,6 +184,7 @@ class DentedTube:
         Of its section along the force [m], and the law of the dent.
     """
 
+    obstacle: str
     member: str
     station: float
     nodes: tuple[str, ...]
@@ -228,7 +259,7 @@ def _dented(structure: StructureParts, member: str, place: StruckPlace) -> Dente
         return None
     nodes = _nodes_in(structure, member, place.station)
     dent = dent_of(section, _metal(structure, member), depth)
-    return DentedTube(member, place.station, nodes, outwards, depth, dent)
+    return DentedTube(place.obstacle, member, place.station, nodes, outwards, depth, dent)
 
 
 def _walls(structure: StructureParts, member: str) -> CircularTube | RectangularTube | None:

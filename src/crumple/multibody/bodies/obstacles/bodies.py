@@ -27,6 +27,7 @@ from crumple.multibody.bodies.crumpling_ends import CrumplingEnd
 from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.multibody.bodies.obstacles.faces import Face, face_of
 from crumple.multibody.bodies.obstacles.motion import guided_or_driven
+from crumple.multibody.bodies.obstacles.sunk_walls import SunkWall, sunk_walls, with_walls
 from crumple.multibody.bodies.shared_ends import bodies_together, ends_met
 from crumple.multibody.bodies.surface import surface_of
 from crumple.numeric.arrays import Floats
@@ -55,13 +56,13 @@ class Touching:
     Attributes
     ----------
     model
-        For the kernel; obstacles in the structure's order, their bodies after those of the linkage.
+        For the kernel; obstacles in the structure's order, their bodies after those of the linkage and walls.
     joint
         Joint of every moving obstacle by name.
     drives
         Owner of every drive, in the model's order: a support or an obstacle.
     velocity
-        Velocity at the start of every body after those of the linkage [m/s], (obstacle bodies, 3).
+        Velocity at the start of every body of an obstacle [m/s], (obstacle bodies, 3).
     members
         Member of every capsule; further capsules are corners of end faces and tips of corners, and points of
         ends that crumple.
@@ -69,6 +70,8 @@ class Touching:
         Index of every point of an end that crumples, and its end.
     faces
         Faces of obstacles that dent walls; their slips are the last hinges of the model.
+    walls
+        Walls into whose folds poles sink.
     """
 
     model: SpatialModel
@@ -78,6 +81,7 @@ class Touching:
     members: tuple[str, ...] = ()
     points: Mapping[int, CrumplingEnd] = field(default_factory=dict)
     faces: tuple[Face, ...] = ()
+    walls: tuple[SunkWall, ...] = ()
 
 
 def with_obstacles(
@@ -102,12 +106,15 @@ def with_obstacles(
     """
     if not structure.obstacles and structure.member_contact is None:
         return Touching(model, {}, owners, np.zeros((0, 3)))
+    walls = sunk_walls(structure, linkage, model)
+    light = LIGHT * sum(body.mass for body in model.bodies)
+    model = with_walls(model, walls, light)
     moving, member = member_capsules(structure, linkage.pieces)
     moving = with_folds(structure, linkage, moving, member)
-    surface = surface_of(structure, linkage, moving, member)
+    surface = surface_of(structure, linkage, moving, member, walls)
     rows = {name: row_shifts(structure, name) for name in structure.members}
     together = {plane: bodies_together(linkage, rows, folding=plane) for plane in (False, True)}
-    added = _Added(model)
+    added = _Added(model, light)
     duration = max(stage.duration for stage in stages)
     fast = all(stage.kind == "dynamic" for stage in stages)
     obstacles = []
@@ -145,15 +152,16 @@ def with_obstacles(
         surface.members,
         surface.points,
         tuple(added.faces),
+        walls,
     )
 
 
 class _Added:
     """Bodies, joints and drives of obstacles, each counted on from those of the model."""
 
-    def __init__(self, model: SpatialModel) -> None:
+    def __init__(self, model: SpatialModel, light: float) -> None:
         self._model = model
-        self._light = LIGHT * sum(body.mass for body in model.bodies)
+        self._light = light
         self.bodies: list[SpatialBody] = []
         self.velocity: list[Velocity] = []
         self.joints: list[SpatialJoint] = []
