@@ -109,17 +109,20 @@ class PressedLaw(LawInside):
     def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Work of the fold by its rotation [N m], that of its moment and of the pole, at rotations [rad]."""
         curve = _curve(self, sense)
-        return np.interp(rotation, curve.rotation, curve.work)
+        found: Floats = np.interp(np.asarray(rotation, float), curve.rotation, curve.work)
+        return found
 
     def slope(self, rotation: ArrayLike) -> Floats:
         """Depth over rotation [m/rad] at rotations in its sense [rad]."""
         curve = _curve(self, self.sense)
-        return np.interp(rotation, curve.rotation, curve.slope)
+        found: Floats = np.interp(np.asarray(rotation, float), curve.rotation, curve.slope)
+        return found
 
     def depth(self, rotation: ArrayLike) -> Floats:
         """Depth [m] at rotations in its sense [rad]; at others it is 0."""
         curve = _curve(self, self.sense)
-        return np.interp(rotation, curve.rotation, curve.depth)
+        found: Floats = np.interp(np.asarray(rotation, float), curve.rotation, curve.depth)
+        return found
 
 
 @dataclass(frozen=True, eq=False)
