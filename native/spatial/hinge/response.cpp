@@ -15,9 +15,10 @@ constexpr double rounding_weight = 8 * 2.2e-16 / 1e-9;
 
 // The problem of surface.hpp for the rates of a step.  Components are x = (tau - centre)/scale, impulses are h (centre + scale x).
 struct Trial {
-    double scale[most] = {}, y[most] = {}, m[most] = {};
-    double y_rate[most] = {};  // dy_k/dw_k
-    double guess[most] = {};
+    // of the components that the hinge has
+    double scale[most], y[most], m[most];
+    double y_rate[most];  // dy_k/dw_k
+    double guess[most];
     Flange flange;
 };
 

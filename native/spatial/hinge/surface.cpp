@@ -75,15 +75,18 @@ void solve(int n, double a[][most + 1], double b[][most + 1], int columns) {
     }
 }
 
+// What is asked of g at a point: itself, also its gradient, and also its curvature.
+enum class Order { value, gradient, curvature };
+
 struct Shape {
     double g = 0;
     double gradient[most] = {};
     double curvature[most][most] = {};
 };
 
-// p-norm of the linear forms a.x of all rows, with gradient and curvature.
+// p-norm of the linear forms a.x of all rows.
 template <int n>
-Shape direct_shape(const Surface& s, const double* x, bool curved) {
+Shape direct_shape(const Surface& s, const double* x, Order order) {
     Shape out;
     const std::size_t rows = s.rows.size() / n;
     const double* a = s.rows.data();
@@ -96,17 +99,19 @@ Shape direct_shape(const Surface& s, const double* x, bool curved) {
         const double ratio = dot(n, a, x) / largest, size = std::fabs(ratio);
         const double low = to_power(size, s.power - 2), slope = low * ratio;
         total += slope * ratio;
+        if (order == Order::value) continue;
         for (int j = 0; j < n; j++) {
             out.gradient[j] += slope * a[j];
-            if (!curved) continue;
+            if (order == Order::gradient) continue;
             for (int k = 0; k <= j; k++) out.curvature[j][k] += low * a[j] * a[k];
         }
     }
     const double root = root_of(total, s.power);
     out.g = largest * root;
+    if (order == Order::value) return out;
     const double slope_scale = root / total, bend = (s.power - 1) * root / (total * largest);
     for (int j = 0; j < n; j++) out.gradient[j] *= slope_scale;
-    if (!curved) return out;
+    if (order == Order::gradient) return out;
     for (int j = 0; j < n; j++) {
         for (int k = 0; k <= j; k++) {
             out.curvature[j][k] = bend * out.curvature[j][k] - (s.power - 1) / out.g * out.gradient[j] * out.gradient[k];
@@ -117,17 +122,18 @@ Shape direct_shape(const Surface& s, const double* x, bool curved) {
 }
 
 // g = (d^r + |t|^r)^(1/r) of the direct part d and the torque t.
-Shape with_torque(const Surface& s, int n, const double* x, Shape d, bool curved) {
+Shape with_torque(const Surface& s, int n, const double* x, const Shape& d, Order order) {
     const double torque = x[s.torsion], r = s.torque_power;
     const double t = std::fabs(torque), top = std::max(d.g, t);
     Shape out;
     if (top == 0) return out;
     out.g = top * root_of(to_power(d.g / top, r) + to_power(t / top, r), r);
+    if (order == Order::value) return out;
     const double u = d.g / out.g, v = t / out.g, sign = torque < 0 ? -1 : 1;
     const double flat = to_power(u, r - 2), flat_t = to_power(v, r - 2), by_d = flat * u, by_t = sign * flat_t * v;
     for (int j = 0; j < n; j++) out.gradient[j] = by_d * d.gradient[j];
     out.gradient[s.torsion] = by_t;
-    if (!curved) return out;
+    if (order == Order::gradient) return out;
     const double bend = (r - 1) / out.g, dd = bend * (flat - by_d * by_d), dt = -bend * by_d * by_t;
     for (int j = 0; j < n; j++) {
         // at zero direct load its norm has a kink, which r >= 2 smooths: use the plain sum over the rows there
@@ -145,12 +151,12 @@ Shape with_torque(const Surface& s, int n, const double* x, Shape d, bool curved
     return out;
 }
 
-Shape shape(const Surface& s, int n, const double* x, bool curved) {
-    const Shape direct = n == 1   ? direct_shape<1>(s, x, curved)
-                         : n == 2 ? direct_shape<2>(s, x, curved)
-                         : n == 3 ? direct_shape<3>(s, x, curved)
-                                  : direct_shape<4>(s, x, curved);
-    return s.torsion < 0 ? direct : with_torque(s, n, x, direct, curved);
+Shape shape(const Surface& s, int n, const double* x, Order order) {
+    const Shape direct = n == 1   ? direct_shape<1>(s, x, order)
+                         : n == 2 ? direct_shape<2>(s, x, order)
+                         : n == 3 ? direct_shape<3>(s, x, order)
+                                  : direct_shape<4>(s, x, order);
+    return s.torsion < 0 ? direct : with_torque(s, n, x, direct, order);
 }
 
 // The same at the point g = 1 on the ray through x: the gradient is unchanged, the curvature scales with 1/|x|.
@@ -223,7 +229,7 @@ SurfacePoint on_section(const Surface& s, int n, const double* y, const double* 
         if (free.g == 0) free = {y, gauge(s, n, y, nullptr)};
         best = begin_at(n, y, m, {free, near}, p.x);
     }
-    Shape at = shape(s, n, p.x, true);
+    Shape at = shape(s, n, p.x, Order::curvature);
     auto residual = [&](const double* x, const Shape& here, double* r) {
         double multiplier = 0;
         for (int k = 0; k < n; k++) multiplier += x[k] * (y[k] - m[k] * x[k]);
@@ -245,7 +251,7 @@ SurfacePoint on_section(const Surface& s, int n, const double* y, const double* 
         for (int halving = 0; halving < halvings && !moved; halving++, share /= 2) {
             double trial[most], trial_r[most];
             for (int k = 0; k < n; k++) trial[k] = p.x[k] + share * step[k];
-            const Shape there = on_surface(n, shape(s, n, trial, true), trial);
+            const Shape there = on_surface(n, shape(s, n, trial, Order::curvature), trial);
             const double f = objective(n, y, m, trial);
             const double multiplier = residual(trial, there, trial_r), remains = length(n, trial_r);
             // sufficient increase (Armijo); close to the maximum, where the increase is lost in rounding, the residual decides
@@ -303,7 +309,7 @@ SurfacePoint on_ellipsoid(int n, const double* y, const double* m, double* deriv
 
 double gauge(const Surface& s, int n, const double* x, double* gradient) {
     if (s.coupling == Coupling::section) {
-        const Shape at = shape(s, n, x, false);
+        const Shape at = shape(s, n, x, gradient != nullptr ? Order::gradient : Order::value);
         if (gradient != nullptr) std::copy(at.gradient, at.gradient + n, gradient);
         return at.g;
     }
@@ -315,7 +321,7 @@ double gauge(const Surface& s, int n, const double* x, double* gradient) {
 // At g = 0, and for the ellipsoid everywhere, the curvature is the unit matrix.
 double half_square(const Surface& s, int n, const double* x, double* gradient, double* curvature, int stride) {
     const bool section = s.coupling == Coupling::section;
-    const Shape at = section ? shape(s, n, x, true) : Shape{};
+    const Shape at = section ? shape(s, n, x, Order::curvature) : Shape{};
     for (int j = 0; j < n; j++) {
         gradient[j] = section ? at.g * at.gradient[j] : x[j];
         for (int k = 0; k < n; k++) {

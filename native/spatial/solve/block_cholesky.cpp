@@ -14,9 +14,6 @@ namespace {
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-// Share of the diagonal below which a pivot is rounding; smaller pivots are raised to it, and refinement corrects the solution.
-constexpr double rounding = 2.2e-16;
-
 }  // namespace
 
 void BlockCholesky::analyse(const std::vector<int>& held, const std::vector<int>& laws, const std::vector<std::vector<int>>& cliques) {
@@ -174,71 +171,6 @@ void BlockCholesky::set_root(int node, const double* root) {
     idle_[at(node)] = idle;
 }
 
-// Factor of a diagonal block in its lower triangle, with the reciprocals of the pivots, and W in the place of the laws.
-void BlockCholesky::factor_diagonal(int node, const char* redundant) {
-    const int n = size_[at(node)], held = held_[at(node)];
-    double* a = &factor_[diagonal_[at(node)]];
-    const double* before = &values_[diagonal_[at(node)]];
-    double* reciprocal = &inverse_[at(start_[at(node)])];
-    for (int j = 0; j < held; j++) {
-        double pivot = a[j * n + j];
-        for (int k = 0; k < j; k++) pivot -= a[j * n + k] * a[j * n + k];
-        if (redundant[j]) {
-            reciprocal[j] = 0;
-            for (int i = j; i < n; i++) a[i * n + j] = 0;
-            continue;
-        }
-        a[j * n + j] = std::sqrt(std::max(pivot, rounding * before[j * n + j]));
-        reciprocal[j] = 1 / a[j * n + j];
-        for (int i = j + 1; i < n; i++) {
-            double s = a[i * n + j];
-            for (int k = 0; k < j; k++) s -= a[i * n + k] * a[j * n + k];
-            a[i * n + j] = s * reciprocal[j];
-        }
-    }
-    for (int i = held; i < n; i++) {
-        for (int j = held; j <= i; j++) {
-            for (int k = 0; k < held; k++) a[i * n + j] -= a[i * n + k] * a[j * n + k];
-            a[j * n + i] = a[i * n + j];
-        }
-    }
-    invert_laws(node);
-}
-
-// W of a node from the part S that its held rows leave of its laws.
-void BlockCholesky::invert_laws(int node) {
-    const int n = laws_[at(node)], wide = size_[at(node)];
-    const double* root = &root_[at(node) * most_laws * most_laws];
-    double* s = &factor_[diagonal_[at(node)]] + held_[at(node)] * (wide + 1);
-    double product[most_laws][most_laws], g[most_laws][most_laws];
-    for (int i = 0; i < n; i++) {
-        for (int k = 0; k < n; k++) {
-            product[i][k] = 0;
-            for (int j = 0; j < n; j++) product[i][k] += s[i * wide + j] * root[j * n + k];
-        }
-    }
-    for (int l = 0; l < n; l++) {
-        for (int k = 0; k <= l; k++) {
-            g[l][k] = l == k ? 1 : 0;
-            for (int i = 0; i < n; i++) g[l][k] += root[i * n + l] * product[i][k];
-        }
-    }
-    for (int j = 0; j < n; j++) {
-        for (int k = 0; k < j; k++) g[j][j] -= g[j][k] * g[j][k];
-        const double reciprocal = 1 / std::sqrt(std::max(g[j][j], 1.0));
-        for (int i = j + 1; i < n; i++) {
-            for (int k = 0; k < j; k++) g[i][j] -= g[i][k] * g[j][k];
-            g[i][j] *= reciprocal;
-        }
-        // row j of W
-        for (int i = 0; i < n; i++) {
-            double w = root[i * n + j];
-            for (int k = 0; k < j; k++) w -= g[j][k] * s[k * wide + i];
-            s[j * wide + i] = w * reciprocal;
-        }
-    }
-}
-
 void BlockCholesky::factor(const std::vector<char>& redundant) {
     if (!listed_) list_used();
     for (size_t k = 0; k < order_.size(); k++) {
@@ -263,8 +195,9 @@ void BlockCholesky::factor_column(size_t k, const std::vector<char>& redundant) 
         double *target = &factor_[u.target], *a = &factor_[u.a], *b = &factor_[u.b];
         blocks_.subtract_product(target, a, b, u.rows_a, n, u.inner);
     }
-    factor_diagonal(node, &redundant[at(start_[at(node)])]);
-    const double *lower = &factor_[begin], *reciprocal = &inverse_[at(start_[at(node)])];
+    double *lower = &factor_[begin], *reciprocal = &inverse_[at(start_[at(node)])];
+    const double* root = &root_[at(node) * most_laws * most_laws];
+    blocks_.factor_diagonal(lower, reciprocal, &values_[begin], root, &redundant[at(start_[at(node)])], rows_of(node));
     for (size_t p = first_used_[k]; p < first_used_[k + 1]; p++) {
         double* b = &factor_[used_[p].block];
         blocks_.solve_rows(b, lower, reciprocal, held, size_[at(used_[p].node)], n);
@@ -273,51 +206,27 @@ void BlockCholesky::factor_column(size_t k, const std::vector<char>& redundant) 
 
 void BlockCholesky::solve(double* x) const {
     for (size_t k = 0; k < order_.size(); k++) {
-        const int node = order_[k], n = size_[at(node)], held = held_[at(node)];
+        const int node = order_[k], n = size_[at(node)];
         double* own = x + start_[at(node)];
         if (idle(node)) {
             std::fill(own, own + n, 0.0);
             continue;
         }
-        const double *lower = &factor_[diagonal_[at(node)]], *reciprocal = &inverse_[at(start_[at(node)])];
-        double laws[most_laws];
-        for (int j = 0; j < n; j++) {
-            double s = own[j];
-            for (int l = 0; l < std::min(j, held); l++) s -= lower[j * n + l] * own[l];
-            own[j] = j < held ? s * reciprocal[j] : s;
-        }
-        for (int j = held; j < n; j++) {
-            laws[j - held] = 0;
-            for (int l = held; l < n; l++) laws[j - held] += lower[j * n + l] * own[l];
-        }
-        std::copy(laws, laws + n - held, own + held);
+        blocks_.forward(own, &factor_[diagonal_[at(node)]], &inverse_[at(start_[at(node)])], rows_of(node));
         for (size_t p = first_used_[k]; p < first_used_[k + 1]; p++) {
-            const int rows = size_[at(used_[p].node)];
             double* other = x + start_[at(used_[p].node)];
-            const double* b = &factor_[used_[p].block];
-            blocks_.carry_forward(other, b, own, rows, n);
+            blocks_.carry_forward(other, &factor_[used_[p].block], own, size_[at(used_[p].node)], n);
         }
     }
     for (size_t k = order_.size(); k-- > 0;) {
-        const int node = order_[k], n = size_[at(node)], held = held_[at(node)];
+        const int node = order_[k], n = size_[at(node)];
         if (idle(node)) continue;
         double* own = x + start_[at(node)];
-        const double *lower = &factor_[diagonal_[at(node)]], *reciprocal = &inverse_[at(start_[at(node)])];
         for (size_t p = first_used_[k]; p < first_used_[k + 1]; p++) {
-            const int rows = size_[at(used_[p].node)];
-            const double *other = x + start_[at(used_[p].node)], *b = &factor_[used_[p].block];
-            blocks_.carry_back(own, b, other, rows, n);
+            const double* other = x + start_[at(used_[p].node)];
+            blocks_.carry_back(own, &factor_[used_[p].block], other, size_[at(used_[p].node)], n);
         }
-        double laws[most_laws] = {};
-        for (int l = held; l < n; l++) {
-            for (int j = held; j < n; j++) laws[j - held] += lower[l * n + j] * own[l];
-        }
-        std::copy(laws, laws + n - held, own + held);
-        for (int j = held - 1; j >= 0; j--) {
-            double s = own[j];
-            for (int l = j + 1; l < n; l++) s -= lower[l * n + j] * own[l];
-            own[j] = s * reciprocal[j];
-        }
+        blocks_.backward(own, &factor_[diagonal_[at(node)]], &inverse_[at(start_[at(node)])], rows_of(node));
     }
 }
 

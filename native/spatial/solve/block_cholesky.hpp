@@ -19,9 +19,6 @@ namespace crumple::spatial {
 
 using std::size_t;
 
-// Largest number of laws of a link.
-constexpr int most_laws = 4;
-
 class BlockCholesky {
 public:
     // `held`, `laws`: number of rows of every node; `cliques`: sets of nodes that are all coupled with each other (those at one body)
@@ -60,8 +57,7 @@ private:
     template <class Use>
     void each_product(size_t k, Use use) const;
     void factor_column(size_t k, const std::vector<char>& redundant);
-    void factor_diagonal(int node, const char* redundant);
-    void invert_laws(int node);
+    BlockRows rows_of(int node) const { return {held_[static_cast<size_t>(node)], size_[static_cast<size_t>(node)]}; }
 
     const BlockKernels& blocks_ = block_kernels();
     std::vector<int> held_, laws_, size_, start_, order_, place_;

@@ -1,6 +1,9 @@
 // CRUMPLE_BLOCKS: the name of this build's table of functions.
 #include "spatial/solve/block_kernels.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #if defined(__AVX2__)
 #include <immintrin.h>
 #endif
@@ -15,6 +18,9 @@ struct Fixed {
     operator int() const { return N; }
 };
 
+// Share of the diagonal below which a pivot is rounding; smaller pivots are raised to it, and refinement corrects the solution.
+constexpr double rounding = 2.2e-16;
+
 template <class Use>
 inline void with_size(int n, Use use) {
     if (n == 6) {
@@ -23,6 +29,22 @@ inline void with_size(int n, Use use) {
         use(Fixed<3>());
     } else {
         use(n);
+    }
+}
+
+// The same of diagonal blocks: hinges with two, three and four laws, and contacts.
+template <class Use>
+inline void with_rows(int held, int n, Use use) {
+    if (n == 6 && held == 4) {
+        use(Fixed<4>(), Fixed<6>());
+    } else if (n == 6 && held == 3) {
+        use(Fixed<3>(), Fixed<6>());
+    } else if (n == 6 && held == 2) {
+        use(Fixed<2>(), Fixed<6>());
+    } else if (n == 3 && held == 0) {
+        use(Fixed<0>(), Fixed<3>());
+    } else {
+        use(held, n);
     }
 }
 
@@ -159,32 +181,142 @@ inline void solve_all(double* b, const double* lower, const double* reciprocal, 
 }
 
 void solve_rows(double* b, const double* lower, const double* reciprocal, int held, int n, int k) {
-    // a hinge with two laws is the most common joint
-    if (n == 6 && k == 6 && held == 4) return solve_all(b, lower, reciprocal, Fixed<6>(), Fixed<6>(), Fixed<4>());
-    with_size(n, [&](auto m) { with_size(k, [&](auto i) { solve_all(b, lower, reciprocal, m, i, held); }); });
+    with_size(n, [&](auto m) { with_rows(held, k, [&](auto h, auto i) { solve_all(b, lower, reciprocal, m, i, h); }); });
 }
 
+// Both keep what they change in registers, which may not be where the other arrays are.
 void carry_forward(double* other, const double* b, const double* own, int n, int k) {
     with_size(n, [&](auto m) {
+        double sum[most_block];
+        for (int i = 0; i < m; i++) sum[i] = other[i];
         for (int l = 0; l < k; l++) {
-            for (int i = 0; i < m; i++) other[i] -= b[l * m + i] * own[l];
+            for (int i = 0; i < m; i++) sum[i] -= b[l * m + i] * own[l];
         }
+        for (int i = 0; i < m; i++) other[i] = sum[i];
     });
 }
 
 void carry_back(double* own, const double* b, const double* other, int n, int k) {
     with_size(n, [&](auto m) {
-        for (int l = 0; l < k; l++) {
-            double s = 0;
-            for (int i = 0; i < m; i++) s += b[l * m + i] * other[i];
-            own[l] -= s;
+        with_size(k, [&](auto j) {
+            double sum[most_block] = {};
+            for (int i = 0; i < m; i++) {
+                for (int l = 0; l < j; l++) sum[l] += b[l * m + i] * other[i];
+            }
+            for (int l = 0; l < j; l++) own[l] -= sum[l];
+        });
+    });
+}
+
+// W from the part S that the held rows leave of the laws, in its place; `wide`: distance of its rows.
+template <class N, class M>
+inline void invert_laws(double* s, const double* root, N n, M wide) {
+    double product[most_laws][most_laws], g[most_laws][most_laws];
+    for (int i = 0; i < n; i++) {
+        for (int k = 0; k < n; k++) {
+            product[i][k] = 0;
+            for (int j = 0; j < n; j++) product[i][k] += s[i * wide + j] * root[j * n + k];
         }
+    }
+    for (int l = 0; l < n; l++) {
+        for (int k = 0; k <= l; k++) {
+            g[l][k] = l == k ? 1 : 0;
+            for (int i = 0; i < n; i++) g[l][k] += root[i * n + l] * product[i][k];
+        }
+    }
+    for (int j = 0; j < n; j++) {
+        for (int k = 0; k < j; k++) g[j][j] -= g[j][k] * g[j][k];
+        const double reciprocal = 1 / std::sqrt(std::max(g[j][j], 1.0));
+        for (int i = j + 1; i < n; i++) {
+            for (int k = 0; k < j; k++) g[i][j] -= g[i][k] * g[j][k];
+            g[i][j] *= reciprocal;
+        }
+        // row j of W
+        for (int i = 0; i < n; i++) {
+            double w = root[i * n + j];
+            for (int k = 0; k < j; k++) w -= g[j][k] * s[k * wide + i];
+            s[j * wide + i] = w * reciprocal;
+        }
+    }
+}
+
+template <class H, class N>
+inline void factor_rows(double* a, double* reciprocal, const double* before, const char* redundant, H held, N n) {
+    for (int j = 0; j < held; j++) {
+        double pivot = a[j * n + j];
+        for (int k = 0; k < j; k++) pivot -= a[j * n + k] * a[j * n + k];
+        if (redundant[j]) {
+            reciprocal[j] = 0;
+            for (int i = j; i < n; i++) a[i * n + j] = 0;
+            continue;
+        }
+        a[j * n + j] = std::sqrt(std::max(pivot, rounding * before[j * n + j]));
+        reciprocal[j] = 1 / a[j * n + j];
+        for (int i = j + 1; i < n; i++) {
+            double s = a[i * n + j];
+            for (int k = 0; k < j; k++) s -= a[i * n + k] * a[j * n + k];
+            a[i * n + j] = s * reciprocal[j];
+        }
+    }
+    for (int i = held; i < n; i++) {
+        for (int j = held; j <= i; j++) {
+            for (int k = 0; k < held; k++) a[i * n + j] -= a[i * n + k] * a[j * n + k];
+            a[j * n + i] = a[i * n + j];
+        }
+    }
+}
+
+void factor_diagonal(double* a, double* reciprocal, const double* before, const double* root, const char* redundant, BlockRows rows) {
+    with_rows(rows.held, rows.all, [&](auto held, auto n) {
+        factor_rows(a, reciprocal, before, redundant, held, n);
+        double* laws = a + held * (n + 1);
+        if (n - held == 3) {
+            invert_laws(laws, root, Fixed<3>(), n);
+        } else {
+            invert_laws(laws, root, n - held, n);
+        }
+    });
+}
+
+void forward(double* own, const double* lower, const double* reciprocal, BlockRows rows) {
+    with_rows(rows.held, rows.all, [&](auto held, auto n) {
+        double x[most_block], laws[most_block] = {};
+        for (int j = 0; j < held; j++) {
+            x[j] = own[j];
+            for (int l = 0; l < j; l++) x[j] -= lower[j * n + l] * x[l];
+            x[j] *= reciprocal[j];
+        }
+        for (int j = held; j < n; j++) {
+            x[j] = own[j];
+            for (int l = 0; l < held; l++) x[j] -= lower[j * n + l] * x[l];
+        }
+        for (int j = held; j < n; j++) {
+            for (int l = held; l < n; l++) laws[j] += lower[j * n + l] * x[l];
+        }
+        for (int j = 0; j < held; j++) own[j] = x[j];
+        for (int j = held; j < n; j++) own[j] = laws[j];
+    });
+}
+
+void backward(double* own, const double* lower, const double* reciprocal, BlockRows rows) {
+    with_rows(rows.held, rows.all, [&](auto held, auto n) {
+        double x[most_block] = {};
+        for (int l = held; l < n; l++) {
+            for (int j = held; j < n; j++) x[j] += lower[l * n + j] * own[l];
+        }
+        for (int j = held - 1; j >= 0; j--) {
+            x[j] = own[j];
+            for (int l = j + 1; l < n; l++) x[j] -= lower[l * n + j] * x[l];
+            x[j] *= reciprocal[j];
+        }
+        for (int j = 0; j < n; j++) own[j] = x[j];
     });
 }
 
 }  // namespace
 
 extern const BlockKernels CRUMPLE_BLOCKS;
-const BlockKernels CRUMPLE_BLOCKS = {subtract_product, add_product, solve_rows, carry_forward, carry_back};
+const BlockKernels CRUMPLE_BLOCKS = {subtract_product, add_product, solve_rows,      carry_forward,
+                                    carry_back,       factor_diagonal, forward,   backward};
 
 }  // namespace crumple::spatial

@@ -97,7 +97,9 @@ void System::set_tangent(size_t link, const double* vectors, const double* roots
     std::copy(vectors, vectors + n * n, t.vectors);
     std::copy(roots, roots + n, t.root);
     double root[most_laws * most_laws];
-    for (int i = 0; i < n * n; i++) root[i] = vectors[i] * roots[i % n];
+    for (int i = 0; i < n; i++) {
+        for (int k = 0; k < n; k++) root[i * n + k] = vectors[i * n + k] * roots[k];
+    }
     matrix_.set_root(static_cast<int>(link), root);
 }
 

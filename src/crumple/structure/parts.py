@@ -35,7 +35,7 @@ Normal = tuple[float, float, float]
 
 OF_ANY_STIFFNESS = frozenset({
     "section", "material", "rigidity", "shear area", "planar", "corners", "untreated corners", "T-joints",
-    "framework", "held runs", "braced", "strikes joint", "struck places", "sound members",
+    "framework", "held runs", "braced", "joint reach", "strikes joint", "struck places", "sound members",
 })  # fmt: skip
 """Kinds of derived data that are the same whether members are rigid or elastic."""
 

@@ -18,8 +18,10 @@ from crumple.result.nearby import LawRange
 from crumple.result.result import Result
 from crumple.structure import Structure, plastic_hinges, with_elastic_members
 
+NOMINAL = "nominal"
+"""Name of the run with the laws as they are."""
 CASES: dict[str, Callable[[int], float]] = {
-    "nominal": lambda _: 0.0,
+    NOMINAL: lambda _: 0.0,
     "all laws low": lambda _: -1.0,
     "all laws high": lambda _: 1.0,
     "alternating, the first low": lambda k: -1.0 if k % 2 == 0 else 1.0,
@@ -40,7 +42,7 @@ def law_range(
     structure, run
         As they were solved.
     nominal
-        Result with the nominal laws; its values are within the range too.
+        Result with the nominal laws, which is one of the runs.
     threads, cancel
         As in `solve_variants`.
 
@@ -62,18 +64,20 @@ def law_range(
     bands, without, factors = law_factors(with_elastic_members(structure, run.settings, run.time_in_motion))
     if not bands:
         return None
-    table = solve_variants(structure, run, factors, threads, cancel=cancel, as_answer=True)
+    # the result is the run with the nominal laws, to the bit: the others take the steps of an answer, too
+    changed = {name: column[1:] for name, column in factors.items()}
+    names = [name for name in CASES if name != NOMINAL]
+    table = solve_variants(structure, run, changed, threads, cancel=cancel, as_answer=True)
     table.need_all("the range from the laws is")
-    good = np.array([status.ok for status in table.status])
-    failed = tuple(name for name, ok in zip(CASES, good.tolist(), strict=True) if not ok)
+    good = dict(zip(names, (status.ok for status in table.status), strict=True))
     known = _known(run, nominal)
     values = {name: table.quantities[name] for name in known if name in table.quantities}
-    cases = {
-        case: {name: float(column[i]) for name, column in values.items()}
-        for i, case in enumerate(CASES)
-        if good[i]
-    }
-    ranges = {name: _range([known[name], *(case[name] for case in cases.values())]) for name in values}
+    cases = {NOMINAL: {name: known[name] for name in values}}
+    for i, case in enumerate(names):
+        if good[case]:
+            cases[case] = {name: float(column[i]) for name, column in values.items()}
+    ranges = {name: _range([case[name] for case in cases.values()]) for name in values}
+    failed = tuple(name for name in names if not good[name])
     return LawRange(ranges, bands, without, failed, cases)
 
 

@@ -14,8 +14,20 @@ from matplotlib.path import Path
 from numpy.typing import NDArray
 
 from crumple.numeric.arrays import Floats
+from crumple.report.drawing.narrow_walls import without_narrow_walls
 from crumple.report.drawing.strain import draw_key, largest_strain, wall_colours
-from crumple.report.drawing.style import INK, MUTED, RULE, SERIES, WIDTH, add_axes, new_figure, short, to_svg
+from crumple.report.drawing.style import (
+    INK,
+    MUTED,
+    RASTER,
+    RULE,
+    SERIES,
+    WIDTH,
+    add_axes,
+    new_figure,
+    short,
+    to_svg,
+)  # fmt: skip
 from crumple.report.drawing.view import View, choose_view, ring_centres
 from crumple.result import Result, States
 from crumple.units import format_quantity
@@ -25,6 +37,7 @@ _GHOST = "#e9ecef"
 _CREASE = math.cos(math.radians(30.0))  # walls that meet at more than this get an edge between them
 _RASTER_FROM = 4000  # walls in all pictures together, from which they become an image to keep the page small
 _HAIR = 0.3 / 72.0  # thickness of a member in the picture, below which its centre line is drawn [in]
+_NARROW = 2.0 / RASTER  # width of a wall in an image [in], below which two cannot be told from one
 _CENTRE_LINE = "#3c5268"
 _NAMED_HINGES = 8
 _NEAREST = 8  # points of the walls that carry a hinge
@@ -81,6 +94,8 @@ def deformation(result: Result) -> str | None:
     rings = ring_centres(states)
     # walls that are thinner in the picture than a line show nothing, and take long where they are many
     thin = raster and _thickness(states, rings) * inches_per_metre < _HAIR
+    if raster:
+        states = without_narrow_walls(states, _NARROW / inches_per_metre)
     surface = None if thin else surface_of(states, rings)
     for i, time in enumerate(states.times):
         row, column = divmod(i, columns)

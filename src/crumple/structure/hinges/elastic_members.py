@@ -69,12 +69,22 @@ def with_elastic_members(structure: Parts, settings: MultibodySettings, moving: 
     automatic = moving <= IMPACT and any_automatic(structure)
     if settings.members == "rigid" or (settings.members == "auto" and not automatic):
         return structure
-    members = {
-        name: spec if spec.elastic is not None or spec.rigid is True else _elastic(spec, settings.segments)
-        for name, spec in structure.members.items()
+    unsaid = {
+        name for name, spec in structure.members.items() if spec.elastic is None and spec.rigid is not True
     }
-    changed = any(spec is not structure.members[name] for name, spec in members.items())
-    return structure.with_elastic(members) if changed else structure
+    if not unsaid:
+        return structure
+
+    def bent() -> Parts:
+        return structure.with_elastic(
+            {
+                name: _elastic(spec, settings.segments) if name in unsaid else spec
+                for name, spec in structure.members.items()
+            }
+        )
+
+    # the solver, its checks, the range from the laws and the modes ask in turn: one copy, placed once
+    return structure.kept.once("elastic members", (type(structure), settings.segments), bent)
 
 
 def rigid_for_long(structure: StructureParts, settings: MultibodySettings, moving: float) -> bool:

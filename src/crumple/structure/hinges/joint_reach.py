@@ -41,6 +41,10 @@ def joint_reach(structure: StructureParts, member: str, node: str) -> float:
     float
         0 at nodes without other members, at mitred corners, and where a joint lets members turn.
     """
+    return structure.kept.once("joint reach", (member, node), lambda: _joint_reach(structure, member, node))
+
+
+def _joint_reach(structure: StructureParts, member: str, node: str) -> float:
     others = [name for name in structure.members_at.get(node, ()) if name != member]
     if node in corners(structure) or structure.joints_at.get(node):
         return 0.0

@@ -9,11 +9,13 @@ from tests.support.multibody.frames import THROWN, member, structure
 from tests.support.structures import STEEL, TUBE
 from typer.testing import CliRunner
 
-from crumple.analysis import load, solve, with_law_range
+from crumple.analysis import load, solve
+from crumple.analysis.solve import run_of
 from crumple.cli.main import app
 from crumple.errors import CancelledError, Status
 from crumple.hinge import build_law
 from crumple.multibody import Run, law_range, solve_multibody, solve_variants
+from crumple.multibody.variants.law_range import run_as_solved
 from crumple.result import read, summary, write
 from crumple.structure import MultibodySettings, Stage, Structure
 
@@ -57,16 +59,18 @@ def test_a_range_that_is_stopped_is_not_one_of_runs_that_failed(monkeypatch):
         solved(bar("kecman"))
 
 
-def equal_to_the_result(result, found):
-    """The nominal case has the bits of the result, and some plastic work was done."""
-    nominal = found.cases["nominal"]
+def equal_to_the_result(whole, run, result):
+    """A variant without changes has the bits of the result, which is the nominal case."""
+    found = law_range(whole, run, result, 1)
     assert found.failed == ()
+    unchanged = {f"hinges.{name}.capacity": [1.0] for name in found.bands}
+    table = solve_variants(whole, run_as_solved(run, result), unchanged, 1, as_answer=True)
+    nominal = found.cases["nominal"]
     assert nominal["energy.dissipated"] == result["energy.dissipated"][-1] > 0.0
     for name, value in nominal.items():
         hinge, _, key = name.removeprefix("hinge.").rpartition(".")
-        assert value == (
-            getattr(result.hinges[hinge], key) if name.startswith("hinge.") else result[name][-1]
-        )
+        expected = getattr(result.hinges[hinge], key) if name.startswith("hinge.") else result[name][-1]
+        assert value == expected == table[name][0]
 
 
 @pytest.mark.parametrize("kernel", ["tree", "spatial"])
@@ -74,14 +78,29 @@ def test_the_nominal_case_is_the_result(kernel):
     whole, run = bar("kecman"), replace(RUN, settings=MultibodySettings(kernel=kernel))
     result = solve_multibody(whole, run)
     assert result.provenance.settings["kernel"] == kernel
-    equal_to_the_result(result, law_range(whole, run, result, 1))
+    equal_to_the_result(whole, run, result)
 
 
 @pytest.mark.parametrize("name", ["15_crash_box", "14_rops"])
 def test_the_nominal_case_of_crushed_rails_and_of_quasi_static_stages_is_the_result(name):
     analysis = load(Path("examples") / f"{name}.yaml")
-    result = solve(analysis, checks=False)
-    equal_to_the_result(result, with_law_range(result, analysis).law_range)
+    equal_to_the_result(analysis.structure, run_of(analysis), solve(analysis, checks=False))
+
+
+def test_the_nominal_case_is_not_solved_again(monkeypatch):
+    solved_again = []
+
+    def counted(*what, **options):
+        solved_again.append(what[2])
+        return solve_variants(*what, **options)
+
+    monkeypatch.setattr("crumple.multibody.variants.law_range.solve_variants", counted)
+    _, found = solved(bar("kecman"))
+    (factors,) = solved_again
+    band = found.bands["h"]
+    assert factors["hinges.h.capacity"].tolist() == [1.0 - band, 1.0 + band, 1.0 - band, 1.0 + band]
+    assert next(iter(found.cases)) == "nominal"
+    assert len(found.cases) == 5
 
 
 @pytest.mark.parametrize("kind", ["dynamic", "quasi-static"])

@@ -9,6 +9,7 @@ from crumple.analysis import load
 from crumple.multibody import Run, solve_multibody
 from crumple.structure import AutomaticHinges, MultibodySettings, Stage, placed_hinges, with_elastic_members
 from crumple.structure.parts import OF_ANY_STIFFNESS
+from crumple.structure.remembered import forget
 
 SHORT, LONG = 0.1, 2.0
 NODES = {"a": (0.0, 0.0, 0.0), "b": (1.0, 0.0, 0.0), "c": (1.0, 0.0, 1.0)}
@@ -99,6 +100,17 @@ def test_the_result_says_so():
     assert "joint(s) between the hinges" in bends
     assert "Members are rigid between their hinges" not in bends
     assert "Members are rigid between their hinges" in rigid
+
+
+def test_solver_range_and_modes_share_one_elastic_copy_with_its_hinges():
+    whole = frame(hinges="auto")
+    elastic, again = (with_elastic_members(whole, MultibodySettings(), SHORT) for _ in range(2))
+    assert again is elastic
+    assert placed_hinges(again) is placed_hinges(elastic)
+    finer = with_elastic_members(whole, MultibodySettings(segments=6), SHORT)
+    assert {spec.elastic for spec in finer.members.values()} == {6}
+    forget()
+    assert with_elastic_members(whole, MultibodySettings(), SHORT) is not elastic
 
 
 @pytest.mark.parametrize("name", ["box_frame", "l_oblique", "chain_beam", "buggy", "hat_pillar"])
