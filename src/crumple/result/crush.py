@@ -68,9 +68,9 @@ class DentedWall:
     obstacle
         What pressed it.
     depth
-        Largest depth [m].
+        Largest depth [m], with what a pole sinks into a fold.
     energy
-        Dissipated by it; part of the energy of its member [J].
+        Dissipated by it without the fold; part of the energy of its member [J].
     """
 
     member: str
