@@ -33,7 +33,9 @@ void locate(const Joint& joint, const Pose& a, const Pose& b, const Target* targ
     const Mat3 own = joint.slotted ? transposed(matrix(a.q * joint.axes)) : middle;
     const Vec3 pa = a.at(joint.arm[0]), pb = b.at(joint.arm[1]), apart = pb - pa;
     out.point = joint.slotted ? pb : 0.5 * (pa + pb);
-    const Vec3 ra = out.point - a.x, rb = out.point - b.x, turn = rotation_vector(relative);
+    const Vec3 ra = out.point - a.x, rb = out.point - b.x;
+    // the components of several rotations; of one it is an angle without limits
+    const Vec3 turn = joint.laws > 1 ? rotation_vector(relative) : Vec3{};
     for (int k = 0; k < 3; k++) out.axes[k] = own.r[k];
     Vec3 crossed[3] = {middle.r[0], middle.r[1], middle.r[2]};
     double crossing = 0;

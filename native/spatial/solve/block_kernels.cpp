@@ -32,19 +32,18 @@ inline void with_size(int n, Use use) {
     }
 }
 
-// The same of diagonal blocks: hinges with two, three and four laws, and contacts.
+// The same of diagonal blocks: joints without laws and with one to four, and contacts.
 template <class Use>
 inline void with_rows(int held, int n, Use use) {
-    if (n == 6 && held == 4) {
-        use(Fixed<4>(), Fixed<6>());
-    } else if (n == 6 && held == 3) {
-        use(Fixed<3>(), Fixed<6>());
-    } else if (n == 6 && held == 2) {
-        use(Fixed<2>(), Fixed<6>());
-    } else if (n == 3 && held == 0) {
-        use(Fixed<0>(), Fixed<3>());
-    } else {
-        use(held, n);
+    if (n == 3 && held == 0) return use(Fixed<0>(), Fixed<3>());
+    if (n != 6) return use(held, n);
+    switch (held) {
+        case 2: return use(Fixed<2>(), Fixed<6>());
+        case 3: return use(Fixed<3>(), Fixed<6>());
+        case 4: return use(Fixed<4>(), Fixed<6>());
+        case 5: return use(Fixed<5>(), Fixed<6>());
+        case 6: return use(Fixed<6>(), Fixed<6>());
+        default: return use(held, n);
     }
 }
 
