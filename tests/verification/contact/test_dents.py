@@ -251,6 +251,9 @@ def test_a_pole_sinks_into_the_fold_that_it_bends(record_figure):
     ratio = (force * arm / expected)[bends]
     record_figure("moment under the pole over that of the surface", float(np.median(ratio)), 1.0, 0.02)
     assert share[bends].min() > 0.35
+    moment = np.abs(result[f"hinge.{fold.name}.moment"])[1:]
+    np.testing.assert_allclose(moment[bends], (force * arm)[bends], rtol=0.03)
+    assert result.hinges[fold.name].moment_max == pytest.approx(moment.max())
     depth = result["obstacle.pole.dent"]
     assert depth.max() > 3e-3
     bent = (turned > 0.01) & (turned < 0.1)

@@ -20,6 +20,7 @@ from crumple.errors import InputError, Problem
 from crumple.multibody.answer.forces import check_sections, force_channels, section_force_channels
 from crumple.multibody.answer.hinge_histories import hinge_histories, ledger, spread_energy
 from crumple.multibody.answer.poses import SpatialHistory
+from crumple.multibody.answer.pressed_folds import with_fold_moments
 from crumple.multibody.answer.solved import Poll, Solved
 from crumple.multibody.bodies.dead_centres import dead_centres
 from crumple.multibody.bodies.initial_motion import Placed
@@ -188,6 +189,7 @@ class SpatialSolver:
             if records[-1].outcome is not Outcome.COMPLETE:
                 break
         record = with_held_moments(_joined(records), self.linkage, model, self._holding)
+        record = with_fold_moments(record, self._touching.walls, model, ends_only=ends_only)
         if self._stages[0].kind == "quasi-static":
             # no impulse acts yet; the kernel reports the jump of a drive that starts with a velocity
             record.joint_force[0] = 0.0

@@ -52,8 +52,9 @@ class SunkWall:
     ----------
     tube, law
         The tube under the pole, and the law of its fold.
-    hinge, component
-        Index of the fold's hinge in the model, and that of its rotation in the plane of the pole.
+    hinge, component, joint
+        Index of the fold's hinge in the model, that of its rotation in the plane of the pole, and that of the
+        joint with the cam.
     body, own, other
         Its body, that of the piece on which it slides, and that of the piece behind the fold.
     place, outwards, along
@@ -66,6 +67,7 @@ class SunkWall:
     law: PressedLaw
     hinge: int
     component: int
+    joint: int
     body: int
     own: int
     other: int
@@ -80,11 +82,11 @@ class SunkWall:
         slide = SpatialJoint(self.own, self.body, self.place, frame_of(self.outwards), SLIDES)
         return slide, SpatialJoint(self.body, self.other, self.place, axes, FOLLOWS)
 
-    def cam(self, joint: int) -> SpatialCam:
+    def cam(self) -> SpatialCam:
         """Cam at the second of these joints."""
         turned = np.asarray(self.law.kinks(self.law.sense))
         angle, slope = np.append(-AT_REST, turned), np.append(0.0, self.law.slope(turned))
-        return SpatialCam(joint, ALONG, TURNS, angle, slope)
+        return SpatialCam(self.joint, ALONG, TURNS, angle, slope)
 
     def capsules(self, structure: Structure) -> Iterator[SpatialCapsule]:
         """Capsules of the wall."""
@@ -126,8 +128,8 @@ def sunk_walls(structure: Structure, linkage: Linkage, model: SpatialModel) -> t
                 ends = (along @ (place - np.asarray(structure.nodes[node])) for node in run.nodes)
                 length = min(LENGTH * law.press.half_length, max(float(end) for end in ends))
                 body = len(model.bodies) + len(found)
-                sides = body, own, other
-                found.append(SunkWall(tube, law, index, component, *sides, place, outwards, along, length))
+                parts = index, component, len(model.joints) + 2 * len(found) + 1, body, own, other
+                found.append(SunkWall(tube, law, *parts, place, outwards, along, length))
     return tuple(found)
 
 
@@ -136,7 +138,7 @@ def with_walls(model: SpatialModel, walls: Sequence[SunkWall], mass: float) -> S
     inertia = mass * model.length**2 * np.eye(3)
     bodies = tuple(SpatialBody(mass, inertia, wall.place) for wall in walls)
     joints = tuple(joint for wall in walls for joint in wall.joints())
-    cams = tuple(wall.cam(len(model.joints) + 2 * i + 1) for i, wall in enumerate(walls))
+    cams = tuple(wall.cam() for wall in walls)
     return replace(
         model,
         bodies=(*model.bodies, *bodies),
