@@ -8,6 +8,7 @@ from tests.support.multibody.frames import STEEL, TUBE, member
 from tests.support.stored_laws import law_text, store_of
 
 from crumple.errors import InputError
+from crumple.hinge.bending.pressed import PressedLaw
 from crumple.hinge.measured.place_hash import place_hash
 from crumple.material import Material
 from crumple.section import CircularTube, RectangularTube, fold_distance
@@ -84,6 +85,19 @@ def test_members_use_the_law_of_their_section_and_a_corner_its_own(tmp_path):
     uses = law_uses(whole)
     assert [uses[name].origin for name in ("post-a", "corner-b")] == ["stored", "stored"]
     assert uses["corner-b"].command.endswith("--angle '90 deg' --converge")
+
+
+def test_a_fold_under_a_pole_has_the_stored_law_inside(tmp_path):
+    pole = {"type": "cylinder", "point": (-0.05, 0.0, 0.25), "axis": (0.0, 1.0, 0.0), "radius": 0.02}
+    pole |= {"mass": 20.0, "velocity": (5.0, 0.0, 0.0)}
+    held = CLAMP | {"top": {"node": "b", "fix": "all"}}
+    post = {"post": {"nodes": ("a", "b"), **PLAIN}}
+    parts = {"obstacles": {"pole": pole}, "supports": held, "initial_velocity": [], "masses": {}}
+    nodes = {name: NODES[name] for name in "ab"}
+    whole = frame(post, laws=stored(tmp_path, STRAIGHT), nodes=nodes, **parts)
+    (fold,) = (hinge for hinge in placed_hinges(whole) if hinge.name == "post-pole")
+    assert isinstance(fold.law, PressedLaw)
+    assert law_uses(whole)["post-pole"].origin == "stored"
 
 
 @pytest.mark.parametrize("turned", [(), ("post",), ("arm",), ("post", "arm")])
