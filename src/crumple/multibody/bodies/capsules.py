@@ -94,9 +94,8 @@ def with_folds(
     for connection in linkage.connections:
         hinge = connection.hinge
         if hinge is not None and hinge.plastic:
-            section = structure.section_of(hinge.member)
-            half = max(half_fold_length(section, axis) for axis in AXES)
-            folds[hinge.member].append((hinge.station, SpatialFold(connection.position, half)))
+            fold = fold_at(structure, hinge.member, connection.position)
+            folds[hinge.member].append((hinge.station, fold))
     found = []
     for capsule, member in zip(capsules, owner, strict=True):
         frame = structure.frame_of(member)
@@ -104,6 +103,12 @@ def with_folds(
         at = (fold for station, fold in folds[member] if min(abs(station - end) for end in ends) < SAME)
         found.append(replace(capsule, folds=tuple(at)))
     return found
+
+
+def fold_at(structure: Structure, member: str, middle: Floats) -> SpatialFold:
+    """Fold of a member about a place on its axis [m], (3,)."""
+    section = structure.section_of(member)
+    return SpatialFold(middle, max(half_fold_length(section, axis) for axis in AXES))
 
 
 def end_corners(

@@ -22,7 +22,7 @@ from crumple._core.spatial.model import (
     frame_of,
 )
 from crumple.hinge.bending.pressed import PressedLaw
-from crumple.multibody.bodies.capsules import capsule_rows, row_shifts
+from crumple.multibody.bodies.capsules import capsule_rows, fold_at, row_shifts
 from crumple.multibody.bodies.linkage import Linkage
 from crumple.numeric.arrays import Floats
 from crumple.structure import DentedTube, Structure, dent_at_fold
@@ -89,11 +89,12 @@ class SunkWall:
         return SpatialCam(self.joint, ALONG, TURNS, angle, slope)
 
     def capsules(self, structure: Structure) -> Iterator[SpatialCapsule]:
-        """Capsules of the wall."""
+        """Capsules of the wall; along the tube a pole slides on both walls alike, as on any fold."""
+        folds = (fold_at(structure, self.tube.member, self.place),)
         start = self.place - self.length * self.along
         radius = capsule_rows(structure.section_of(self.tube.member).outer_outline())[1]
         for shift in row_shifts(structure, self.tube.member):
-            yield SpatialCapsule(self.body, start + shift, self.place + shift, radius)
+            yield SpatialCapsule(self.body, start + shift, self.place + shift, radius, folds=folds)
 
     def rest_of(self, capsule: SpatialCapsule) -> SpatialCapsule | None:
         """What is left of a capsule of the tube before the wall: itself if it lies elsewhere, or nothing."""
