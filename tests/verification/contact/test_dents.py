@@ -254,6 +254,8 @@ def test_a_pole_sinks_into_the_fold_that_it_bends(record_figure):
     moment = np.abs(result[f"hinge.{fold.name}.moment"])[1:]
     np.testing.assert_allclose(moment[bends], (force * arm)[bends], rtol=0.03)
     assert result.hinges[fold.name].moment_max == pytest.approx(moment.max())
+    cut = np.abs(result[f"cut.{fold.name}.moment.y"])[1:]
+    np.testing.assert_allclose(cut[bends], moment[bends], rtol=1e-3)
     depth = result["obstacle.pole.dent"]
     assert depth.max() > 3e-3
     bent = (turned > 0.01) & (turned < 0.1)
