@@ -40,6 +40,9 @@ SQUARE = math.cos(math.radians(20.0))
 the forces of one obstacle on several tubes."""
 
 
+LEAST_ON_FOLD = 0.25
+"""Share of a pole's force on the fold from which it sinks: wider ones press beside the walls that would sink,
+where a rough one finds no place to rest on."""
 FIRST_BENDING = 0.1
 """Rotation up to which what holds a tube must carry more than the tube, for a dent to grow on [rad]."""
 
@@ -81,9 +84,11 @@ def with_dent(
     ends = held[0] * moment, held[1] * moment
     force, half = denting_force(section, material), half_fold_length(section, axis)
     press = Press(force, pole.radius, half, strike.spans, ends)
+    if press.on_fold < LEAST_ON_FOLD:
+        return DentedLaw(law, left)
     # what presses beside the fold dents the tube as a force does that bends it later
     dented = DentedLaw(law, 1.0 - (1.0 - press.on_fold) * (1.0 - left))
-    return PressedLaw(dented, press, sense) if press.on_fold > 0.0 else dented
+    return PressedLaw(dented, press, sense)
 
 
 def dent_at_fold(structure: StructureParts, member: str, name: str, axis: Axis) -> DentedTube | None:

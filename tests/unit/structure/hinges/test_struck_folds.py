@@ -137,10 +137,10 @@ def test_laws_of_folds_in_dents(section, axes):
         assert 0.2 < (law.law if isinstance(law, PressedLaw) else law).left < 1.0
 
 
-@pytest.mark.parametrize(("height", "radius", "sinks"), [(90, 50, True), (160, 120, False)])
-def test_a_wide_pole_does_not_sink_into_a_fold(height, radius, sinks):
-    """From four half lengths of the fold on it presses beside it: 4 x 24 mm here."""
-    pole = POLE.replace("HEIGHT", str(height)).replace("radius: 50", f"radius: {radius}")
+@pytest.mark.parametrize(("radius", "sinks"), [(50, True), (80, True), (85, False), (120, False)])
+def test_a_wide_pole_does_not_sink_into_a_fold(radius, sinks):
+    """From 3.375 half lengths of the fold on, 81 mm here, less than a quarter of its force is on the fold."""
+    pole = POLE.replace("HEIGHT", str(40 + radius)).replace("radius: 50", f"radius: {radius}")
     laws = {hinge.name: hinge.law for hinge in plastic_hinges(structure_of("square", pole))}
     assert isinstance(laws["beam-pole"], PressedLaw if sinks else DentedLaw)
 
