@@ -11,6 +11,7 @@ from crumple.multibody import Run, solve_multibody
 from crumple.structure import Outputs, Structure, placed_hinges
 from crumple.structure.bending import planar
 from crumple.structure.hinges.elastic_members import joint_stations
+from crumple.structure.hinges.runs.bars import bar_of
 
 STEEL = {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "density": 7850.0, "yield_stress": 488e6}
 TUBE = {"type": "rectangular_tube", "width": 0.05, "depth": 0.025, "thickness": 0.00265}
@@ -108,7 +109,7 @@ def test_a_section_at_an_angle_to_the_plane_also_bends_across_it(
     assert planar(arm) == flat
     (hinge,) = [one for one in placed_hinges(arm) if one.name == "tube-root"]
     assert (hinge.spatial is None) == flat
-    bends = [axis for axis in ("y", "z") if joint_stations(arm, "tube", axis, (0.0,))]
+    bends = [axis for axis in ("y", "z") if joint_stations(arm, bar_of(arm, "tube"), axis, (0.0,))]
     assert len(bends) == (1 if flat else 2)
 
 

@@ -6,7 +6,8 @@ has turned by m v^2/(2 M_p).  Tolerance 1 %: the beam's mass is 0.02 % of m, at 
 the force has risen by less than 0.1 %, and outputs are 0.4 % of t apart.  The beam of two members with a node
 in the middle and a hinge given there is the same mechanism: 0.1 %, the accuracy of a run.  A node in an
 elastic beam with automatic hinges and a law that falls makes none either, wherever it is: 2 %, since the
-candidate at the node lies 2.4 mm beside it.
+candidate at the node lies 2.4 mm beside it.  Nor does the order of nodes and members change a clamped tube:
+0.2 %, twice the accuracy of a run.
 
 Kind: closed form.  Source: derived here.
 """
@@ -184,3 +185,35 @@ analysis: {{duration: 40 ms}}
     record_figure(f"impulse aside over that along, friction {friction}", aside / push, 0.0, 0.01, "")
     folds = [result.hinges[name].rotation_max for name in ("x1-b1", "x2-b2")]
     record_figure(f"rotations of the boxes, friction {friction}", *folds, 0.08, "rad", relative=True)
+
+
+CLAMPED = """crumple: 1
+materials:
+  steel: {{youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa}}
+sections: {{tube: {{type: square_tube, side: 60 mm, thickness: 2 mm}}}}
+nodes: {{left: [0 m, 0 m, 0 m], at: [0.35 m, 0 m, 0 m], right: [0.9 m, 0 m, 0 m]}}
+members: {{{members}}}
+supports: {{l: {{node: left, fix: all}}, r: {{node: right, fix: all}}}}
+obstacles:
+  pole: {{type: cylinder, point: [0.35 m, 0 m, 71 mm], axis: [0, 1, 0], radius: 40 mm, mass: 80 kg,
+    velocity: [0 m/s, 0 m/s, -4 m/s], guide: [0, 0, -1]}}
+analysis: {{duration: 15 ms, multibody: {{members: elastic}}}}
+"""
+
+
+def folds_of(*members):
+    """Largest rotation of the fold at each node of a clamped tube [rad], of members by their nodes."""
+    keys = "section: tube, material: steel"
+    given = ", ".join(f"m{i}: {{nodes: [{nodes}], {keys}}}" for i, nodes in enumerate(members))
+    result = solve(loads(CLAMPED.format(members=given)))
+    assert result.status is Status.COMPLETE, result.reason
+    return {name.split("-")[1]: hinge.rotation_max for name, hinge in result.hinges.items()}
+
+
+def test_the_order_of_nodes_and_members_does_not_change_a_clamped_tube(record_figure):
+    folds = folds_of("left, at", "at, right")
+    assert folds.keys() == {"left", "at", "right"}
+    for order in (("at, left", "at, right"), ("right, at", "left, at")):
+        for node, fold in folds_of(*order).items():
+            name = f"rotation at {node}, {order[0]} first"
+            record_figure(name, fold, folds[node], 2e-3, "rad", relative=True)

@@ -50,6 +50,7 @@ from crumple.structure import (
     with_elastic_members,
 )
 from crumple.structure.hinges.elastic_members import shear_stretch
+from crumple.structure.hinges.runs.bars import bar_of
 from crumple.structure.hinges.shares import joint_twists
 
 LENGTH = 2.0
@@ -131,7 +132,8 @@ def test_short_members_shear(kernel, depths, end, factor, record_figure):
 
 def test_rounding_does_not_decide_whether_a_member_of_ten_depths_shears():
     for length in (0.4, 0.4 * (1.0 - 1e-12), 0.4 * (1.0 + 1e-12)):
-        assert shear_stretch(beam(CLAMP, None, length=length), "beam", "y") == 0.0
+        whole = beam(CLAMP, None, length=length)
+        assert shear_stretch(whole, bar_of(whole, "beam"), "y") == 0.0
 
 
 def with_tip_mass(ratio):
@@ -321,8 +323,9 @@ def test_a_member_between_corners_twists_as_a_whole(order):
     section, steel = structure.section_of("bc"), structure.material_of("bc")
     assert twists == [pytest.approx(steel.shear_modulus * section.torsion_constant / 0.5)]
     # rounding decided which of two that are equally near to the middle twists
+    bar = bar_of(structure, "bc")
     for second in (0.2 - 1e-15, 0.2, 0.2 + 1e-15):
-        assert joint_twists(structure, "bc", [0.1, second, 0.3, 0.4]) == {second: pytest.approx(0.5)}
+        assert joint_twists(structure, bar, [0.1, second, 0.3, 0.4]) == {second: pytest.approx(0.5)}
 
 
 PORTAL = """crumple: 1

@@ -1,11 +1,11 @@
-"""Elastic members: where a member bends between its hinges, and the yielding of its walls there.
+"""Elastic members: where a bar bends between its hinges, and the yielding of its walls there.
 
-A member with N segments has joints at the borders of N equal segments, besides its hinges. Joints and
-hinges share the bending flexibility of the member exactly for end loads
-(crumple.structure.hinges.flexibility); the mass of each segment moves with it, so that the member
+A bar (crumple.structure.hinges.runs.bars) with N segments has joints at the borders of N equal segments,
+besides its hinges. Joints and hinges share the bending flexibility of the bar exactly for end loads
+(crumple.structure.hinges.flexibility); the mass of each segment moves with it, so that the bar
 vibrates. A joint yields as the section does with plane walls,
 
-    theta_p(M) = l (kappa(M) - M/EI)        l: length of member that the joint stands for,
+    theta_p(M) = l (kappa(M) - M/EI)        l: length of bar that the joint stands for,
 
 from first yield to the largest moment of the straight member's fold: what is beyond belongs to the hinges.
 Theory and limits: docs/theory/elastic_members.md.
@@ -27,6 +27,8 @@ from crumple.section import Axis, Section
 from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import any_automatic
 from crumple.structure.hinges.law_choice import formula
+from crumple.structure.hinges.runs.bars import rigid_along
+from crumple.structure.hinges.runs.straight_runs import StraightRun
 from crumple.structure.keys.member import Member
 from crumple.structure.parts import StructureParts
 from crumple.structure.remembered import remembered
@@ -96,35 +98,34 @@ def _elastic(spec: Member, segments: int) -> Member:
     return spec.model_copy(update={"elastic": segments})
 
 
-def segments_of(structure: StructureParts, member: str) -> int:
-    """Number of segments of an elastic member; 0 of a rigid one."""
-    return structure.members[member].elastic or 0
+def segments_of(structure: StructureParts, bar: StraightRun) -> int:
+    """Number of segments of an elastic bar, the largest that its members ask for; 0 of a rigid one."""
+    return max(structure.members[name].elastic or 0 for name in bar.stretches)
 
 
 def joint_stations(
     structure: StructureParts,
-    member: str,
+    bar: StraightRun,
     axis: Axis,
     hinges: tuple[float, ...],
     others: tuple[float, ...] = (),
 ) -> tuple[float, ...]:
-    """Borders of a member's segments [m] that are clear of its hinges and of its rigid parts.
+    """Borders of a bar's segments [m] that are clear of its hinges and of its rigid parts.
 
     Parameters
     ----------
-    structure, member
+    structure, bar
         Elastic or not; a rigid one has none.
     axis
         About which it bends; in a plane it bends about one axis alone.
     hinges, others
-        Stations of its hinges about that axis, and of those about other axes alone [m].
+        Distances from its start of its hinges about that axis, and of those about other axes alone [m].
     """
-    number = segments_of(structure, member)
-    if number == 0 or (planar(structure) and axis != bending_axis(structure, member)):
+    number = segments_of(structure, bar)
+    if number == 0 or (planar(structure) and axis != bending_axis(structure, next(iter(bar.stretches)))):
         return ()
-    length = structure.frame_of(member).length
-    segment = length / number
-    rigid = structure.members[member].rigid_parts(length)
+    segment = bar.length / number
+    rigid = rigid_along(structure, bar)
     # without hinges a joint lies in the middle of each segment
     shift = 0.5 if not hinges else 1.0
     borders = (segment * (i + shift) for i in range(number if not hinges else number - 1))
@@ -136,18 +137,19 @@ def joint_stations(
     )
 
 
-def shear_stretch(structure: StructureParts, member: str, axis: Axis) -> float:
-    """Square of the length at which an elastic member shears as much as it bends, E I/(G A_s) [m^2].
+def shear_stretch(structure: StructureParts, bar: StraightRun, axis: Axis) -> float:
+    """Square of the length at which an elastic bar shears as much as it bends, E I/(G A_s) [m^2].
 
-    0 for rigid members, and for those of at least `SLENDER` depths.
+    0 for rigid bars, and for those of at least `SLENDER` depths.
     """
-    if segments_of(structure, member) == 0:
+    if segments_of(structure, bar) == 0:
         return 0.0
     from crumple.section.wall_section import walls_of  # noqa: PLC0415  (rigid members need no walls)
 
+    member = next(iter(bar.stretches))
     section, material = structure.section_of(member), structure.material_of(member)
     depth = float(np.ptp(section.outer_outline() @ _across(axis)))
-    if structure.frame_of(member).length >= (1.0 - ROUNDING) * SLENDER * depth:
+    if bar.length >= (1.0 - ROUNDING) * SLENDER * depth:
         return 0.0
     spec = structure.members[member]
     area = structure.kept.once(

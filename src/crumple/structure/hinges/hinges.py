@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Literal
 
@@ -31,16 +31,16 @@ from crumple.structure.hinges.joints.placed_hinge import PlacedHinge, direction_
 from crumple.structure.hinges.places import (
     MADE,
     HingePlace,
-    hinge_places,
     law_of,
     law_spec,
     member_hinge_places,
 )
+from crumple.structure.hinges.runs.bars import bar_of
 from crumple.structure.hinges.shares import (
     AxisShares,
     HingeShares,
     about_axis,
-    member_shares,
+    bar_shares,
     moment_free_ends,
 )
 from crumple.structure.hinges.spatial_hinges import spatial_hinge_record
@@ -72,30 +72,46 @@ def placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
 
 
 def _placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
-    by_member: dict[str, list[HingePlace]] = defaultdict(list)
     problems: list[Problem] = []
-    placed: list[PlacedHinge] = []
-    for place in hinge_places(structure):
-        by_member[place.member].append(place)
+    own: dict[str, list[PlacedHinge]] = {}
     free = moment_free_ends(structure)
     for member, spec in structure.members.items():
-        places = by_member[member]
+        places = member_hinge_places(structure, member)
+        own[member] = []
         if not places and not spec.elastic:
             continue
-        shares, about = _shares(structure, member, free)
-        own = []
-        for place, share in zip(places, shares, strict=True):
+        shares, _ = _shares(structure, member, free)
+        for place in places:
             go_on()
             try:
-                own.append(_placed(structure, place, share))
+                own[member].append(_placed(structure, place, shares[place.name]))
             except InputError as error:
                 problems += [replace(p, where=p.where or f"members.{member}") for p in error.problems]
-        placed += own
-        joints = elastic_joints(structure, member, own, about) if own or spec.elastic else []
-        placed += joints
     if problems:
         raise InputError(problems)
-    return tuple(placed)
+    joints = _joints(structure, own, free)
+    return tuple(hinge for member, hinges in own.items() for hinge in (*hinges, *joints[member]))
+
+
+def _joints(
+    structure: StructureParts,
+    own: Mapping[str, list[PlacedHinge]],
+    free: Callable[[str], tuple[bool, bool]],
+) -> Mapping[str, list[PlacedHinge]]:
+    """Elastic joints by member; `own`: its hinges."""
+    found: dict[str, list[PlacedHinge]] = defaultdict(list)
+    seen: set[str] = set()
+    for member, spec in structure.members.items():
+        go_on()
+        if member in seen:
+            continue
+        bar = bar_of(structure, member)
+        seen |= bar.stretches.keys()
+        hinges = [hinge for name in bar.stretches for hinge in own[name]]
+        if hinges or spec.elastic:
+            for joint in elastic_joints(structure, bar, hinges, _shares(structure, member, free)[1]):
+                found[joint.member].append(joint)
+    return found
 
 
 def plastic_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
@@ -115,12 +131,18 @@ def shares_left_out(structure: StructureParts) -> dict[str, dict[Axis, AxisShare
 
 def _shares(
     structure: StructureParts, member: str, free: Callable[[str], tuple[bool, bool]]
-) -> tuple[list[HingeShares], dict[Axis, AxisShares]]:
-    """See `member_shares`; `free`: which ends of members carry no moment."""
-    places = member_hinge_places(structure, member)
-    return structure.kept.once(
-        "shares", member, lambda: member_shares(structure, member, places, free(member))
-    )
+) -> tuple[dict[str, HingeShares], dict[Axis, AxisShares]]:
+    """See `bar_shares`, of the bar of a member; `free`: which ends of members carry no moment."""
+    bar = bar_of(structure, member)
+
+    def free_at(name: str, node: str) -> bool:
+        return free(name)[structure.members[name].nodes.index(node)]
+
+    def share() -> tuple[dict[str, HingeShares], dict[Axis, AxisShares]]:
+        first, last = bar.ends
+        return bar_shares(structure, bar, (free_at(*first), free_at(*last)))
+
+    return structure.kept.once("shares", next(iter(bar.stretches)), share)
 
 
 def _bending(

@@ -1,4 +1,4 @@
-"""Elastic flexibility that each hinge of a member represents, axis by axis, and its elastic joints."""
+"""Elastic flexibility that each hinge of a bar represents, axis by axis, and the bar's elastic joints."""
 
 from __future__ import annotations
 
@@ -17,19 +17,21 @@ from crumple.structure.hinges.elastic_members import joint_stations, segments_of
 from crumple.structure.hinges.flexibility import flexibility, tributary_lengths
 from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.places import HingePlace, law_of, law_spec, member_hinge_places
+from crumple.structure.hinges.runs.bars import rigid_along
+from crumple.structure.hinges.runs.straight_runs import StraightRun
 from crumple.structure.parts import StructureParts
 
 Spring = Literal["none", "given", "auto"]
 """Whether a hinge bends elastically about an axis, and whether by a stiffness of its own or the member's."""
 AXES: tuple[Axis, ...] = get_args(Axis)
 SAME_PLACE = 1e-2 / 6.0
-"""Distance of joints about two axes that are one, over the length of their member: a hundredth of a segment
-of the six of an elastic member. Its bending about the second axis is wrong by about such a share."""
+"""Distance of joints about two axes that are one, over the length of their bar: a hundredth of a segment
+of the six of an elastic one. Its bending about the second axis is wrong by about such a share."""
 
 
 @dataclass(frozen=True)
 class HingeShares:
-    """Lengths of member [m] that a hinge stands for.
+    """Lengths of a bar [m] that a hinge stands for.
 
     Attributes
     ----------
@@ -38,8 +40,8 @@ class HingeShares:
     axial, twist
         In elastic lengthening, and in elastic twist.
     stretch
-        Of the law of axial folding: the part of the member that folds.  Of a hinge that shortens the whole
-        member, else what is nearer to it than to the others.
+        Of the law of axial folding: the part of the bar that folds.  Of a hinge that shortens the whole
+        bar, else what is nearer to it than to the others.
     twisted
         Of the law of twist: one fold where joints twist besides, else as `stretch`.
     """
@@ -53,16 +55,16 @@ class HingeShares:
 
 @dataclass(frozen=True)
 class AxisShares:
-    """How the hinges of a member share its bending about one axis.
+    """How the hinges of a bar share its bending about one axis.
 
     Attributes
     ----------
     lengths
         By hinge [m]; one that takes no part has none.
     joints
-        Station and length [m] of the elastic joints that the member needs in addition.
+        Distance from the bar's start and length [m] of the elastic joints that it needs in addition.
     elastic
-        Whether the model has these joints: whether a hinge takes its stiffness from the member.
+        Whether the model has these joints: whether a hinge takes its stiffness from the bar.
     rigid
         Whether no hinge is elastic about the axis; lengths and joints are then those that the elastic form
         would have.
@@ -74,25 +76,23 @@ class AxisShares:
     rigid: bool
 
 
-def member_shares(
-    structure: StructureParts, name: str, places: Sequence[HingePlace], free: tuple[bool, bool]
-) -> tuple[list[HingeShares], dict[Axis, AxisShares]]:
-    """Shares of each hinge of a member, and those about each bending axis.
+def bar_shares(
+    structure: StructureParts, bar: StraightRun, free: tuple[bool, bool]
+) -> tuple[dict[str, HingeShares], dict[Axis, AxisShares]]:
+    """Shares of each hinge of a bar by name, and those about each bending axis.
 
     Parameters
     ----------
     structure
         Its members and laws.
-    name
-        Of the member.
-    places
-        Its hinges, along it.
+    bar
+        As of `bar_of`.
     free
-        Whether the member's first and second end carry no moment.
+        Whether the bar's first and second end carry no moment.
     """
-    member, length = structure.members[name], structure.frame_of(name).length
-    rigid = member.rigid_parts(length)
-    about = {axis: _about(structure, name, places, axis, (length, rigid, free)) for axis in AXES}
+    places, length, rigid = places_along(structure, bar), bar.length, rigid_along(structure, bar)
+    name = next(iter(bar.stretches))
+    about = {axis: _about(structure, bar, places, axis, (length, rigid, free)) for axis in AXES}
     found = {axis: shares for axis, shares in about.items() if shares is not None}
 
     def along(takes_part: Callable[[HingePlace], bool]) -> dict[str, float]:
@@ -104,26 +104,26 @@ def member_shares(
 
     axial = along(lambda place: place.keys.axial is not None)
     # the hinge of a corner lies at a node, where loads and obstacles act on either side of it
-    at_nodes = {corner_name(node) for node in member.nodes if node in corner_laws(structure)} if axial else ()
+    at_nodes = {corner_name(node) for node in bar.nodes if node in corner_laws(structure)} if axial else ()
     inside = along(lambda place: place.name in axial and place.name not in at_nodes) if at_nodes else None
     if inside:
         axial = dict.fromkeys(axial, _fold(structure, name)) | inside
     # the hinge of a corner has part of the twist of a rigid member; elastic ones twist on their own
-    rigid_member = not segments_of(structure, name)
+    rigid_member = not segments_of(structure, bar)
     twist = along(
         lambda place: _twists(structure, place) or (rigid_member and "x" in (place.keys.axes or ()))
     )
-    between = joint_twists(structure, name, [at for at, _ in joint_lengths(found, SAME_PLACE * length)])
+    between = joint_twists(structure, bar, [at for at, _ in joint_lengths(found, SAME_PLACE * length)])
     if twist and between:
         twist = _beside(twist, places, between, (length, rigid))
     nearest = along(lambda place: True) if len(places) != 1 else {places[0].name: length}
     # folds along the axis begin at the weakest hinge and go on next to each other up to the joints
-    nearest |= dict.fromkeys(axial, _between_joints(structure, name, rigid) if axial else 0.0)
+    nearest |= dict.fromkeys(axial, _between_joints(structure, bar, rigid) if axial else 0.0)
     twisted = nearest
     if between:
         twisted = {hinge: min(stretch, _fold(structure, name)) for hinge, stretch in nearest.items()}
-    return [
-        HingeShares(
+    return {
+        place.name: HingeShares(
             {
                 axis: shares.lengths[place.name]
                 for axis, shares in found.items()
@@ -135,7 +135,19 @@ def member_shares(
             twisted[place.name],
         )
         for place in places
-    ], found
+    }, found
+
+
+def places_along(structure: StructureParts, bar: StraightRun) -> list[HingePlace]:
+    """Hinges of a bar, along it; their stations count from its start."""
+    if len(bar.stretches) == 1:
+        return member_hinge_places(structure, *bar.stretches)
+    found = [
+        replace(place, station=stretch.along(place.station))
+        for name, stretch in bar.stretches.items()
+        for place in member_hinge_places(structure, name)
+    ]
+    return sorted(found, key=lambda place: place.station)
 
 
 def _fold(structure: StructureParts, name: str) -> float:
@@ -143,11 +155,18 @@ def _fold(structure: StructureParts, name: str) -> float:
     return 2.0 * max(half_fold_length(structure.section_of(name), axis) for axis in AXES)
 
 
-def _between_joints(structure: StructureParts, name: str, rigid: tuple[tuple[float, float], ...]) -> float:
-    """Length of a member [m] that is neither in the rigid joints at its ends nor rigid by itself."""
-    nodes, length = structure.members[name].nodes, structure.frame_of(name).length
-    first, last = joint_reach(structure, name, nodes[0]), length - joint_reach(structure, name, nodes[1])
+def _between_joints(
+    structure: StructureParts, bar: StraightRun, rigid: tuple[tuple[float, float], ...]
+) -> float:
+    """Length of a bar [m] that is neither in the rigid joints at its ends nor rigid by itself."""
+    first, last = between_joints(structure, bar)
     return last - first - sum(max(0.0, min(b, last) - max(a, first)) for a, b in rigid)
+
+
+def between_joints(structure: StructureParts, bar: StraightRun) -> tuple[float, float]:
+    """Ends of what lies between the rigid joints at the ends of a bar [m]."""
+    first, last = (joint_reach(structure, *end) for end in bar.ends)
+    return first, bar.length - last
 
 
 def _beside(
@@ -169,40 +188,38 @@ def _twists(structure: StructureParts, place: HingePlace) -> bool:
     return "x" in axes and turned_corner(structure, place.name, axes) is None
 
 
-def joint_twists(structure: StructureParts, member: str, stations: Sequence[float]) -> dict[float, float]:
-    """Length of a member [m] that each of its joints stands for in twist, by station.
+def joint_twists(structure: StructureParts, bar: StraightRun, joints: Sequence[float]) -> dict[float, float]:
+    """Length of a bar [m] that each of its joints stands for in twist, by their distance from its start [m].
 
-    An elastic member whose hinges twist, or would but for corners at its ends, twists at every joint if its
+    An elastic bar whose hinges twist, or would but for corners at its ends, twists at every joint if its
     metal hardens, since its walls then yield over a length.  Else it twists at its hinges, or, if none of
     these does, at the joint nearest its middle; of two that are equally near, at the first.
     """
-    spec = structure.members[member]
-    if not stations or not spec.elastic:
+    if not joints or not segments_of(structure, bar):
         return {}
-    own = [place.station for place in member_hinge_places(structure, member) if _twists(structure, place)]
-    if not own and not _between_corners(structure, member):
+    own = [place.station for place in places_along(structure, bar) if _twists(structure, place)]
+    if not own and not _between_corners(structure, bar):
         return {}
-    length = structure.frame_of(member).length
-    rigid = spec.rigid_parts(length)
-    if structure.material_of(member).hardening is not None:
-        points = sorted([*own, *stations])
+    length, rigid = bar.length, rigid_along(structure, bar)
+    if structure.material_of(next(iter(bar.stretches))).hardening is not None:
+        points = sorted([*own, *joints])
         lengths = dict(zip(points, tributary_lengths(points, length, rigid), strict=True))
-        return {at: lengths[at] for at in stations}
+        return {at: lengths[at] for at in joints}
     # two may be equally near but for rounding: then the first
-    middle = min(stations, key=lambda at: (round(abs(at / length - 0.5), 9), at))
+    middle = min(joints, key=lambda at: (round(abs(at / length - 0.5), 9), at))
     return {} if own else {middle: length - sum(b - a for a, b in rigid)}
 
 
-def _between_corners(structure: StructureParts, member: str) -> bool:
-    """Whether an end of a member is a corner whose hinge twists about its tangent."""
+def _between_corners(structure: StructureParts, bar: StraightRun) -> bool:
+    """Whether an end of a bar is a corner whose hinge twists about its tangent."""
     known = corners(structure)
-    ends = [known[node] for node in structure.members[member].nodes if node in known]
+    ends = [known[node] for node in bar.nodes if node in known]
     hosts = [place for end in ends for place in member_hinge_places(structure, end.first)]
     return any("x" in (place.keys.axes or ()) and not _twists(structure, place) for place in hosts)
 
 
 def joint_lengths(about: dict[Axis, AxisShares], near: float) -> list[tuple[float, dict[Axis, float]]]:
-    """Stations of joints along a member, with the length that each stands for about its axes [m].
+    """Places of joints along a bar, with the length that each stands for about its axes [m].
 
     Joints about two axes that are nearer to each other than `near` are one, at the first: a body between
     them would have no mass to speak of.
@@ -234,32 +251,32 @@ def about_axis(place: HingePlace, axis: Axis) -> HingePlace:
 
 def _about(
     structure: StructureParts,
-    member: str,
+    bar: StraightRun,
     places: Sequence[HingePlace],
     axis: Axis,
-    bar: tuple[float, tuple[tuple[float, float], ...], tuple[bool, bool]],
+    ends: tuple[float, tuple[tuple[float, float], ...], tuple[bool, bool]],
 ) -> AxisShares | None:
-    """Shares about an axis: of elastic hinges and the member's joints, or of all where none is elastic."""
+    """Shares about an axis: of elastic hinges and the bar's joints, or of all where none is elastic."""
     # the spring of a corner adds to the flexibility of the members
     bends = [(place, axis in axes_of(place)) for place in places]
-    if not segments_of(structure, member) and not any(about for _, about in bends):
+    if not segments_of(structure, bar) and not any(about for _, about in bends):
         return None
     own = [place for place, about in bends if about and not _of_corner(structure, place, axis)]
     others = tuple([place.station for place, about in bends if not about])
-    between = joint_stations(structure, member, axis, tuple([place.station for place in own]), others)
+    between = joint_stations(structure, bar, axis, tuple([place.station for place in own]), others)
     if not own and not between:
         return None
     seen: dict[int, Spring] = {}
     springs: list[Spring] = []
     for place in own:
-        # the hinges between the bars of a member have one and the same keys
+        # the hinges between the equal bars of a member have one and the same keys
         if id(place.keys) not in seen:
             seen[id(place.keys)] = _spring(structure, about_axis(place, axis))
         springs.append(seen[id(place.keys)])
     elastic = [place for place, spring in zip(own, springs, strict=True) if spring != "none"]
     points = elastic or own
     together = sorted([*((place.station, place.name) for place in points), *((at, "") for at in between)])
-    shared = flexibility(tuple(at for at, _ in together), *bar, shear_stretch(structure, member, axis))
+    shared = flexibility(tuple(at for at, _ in together), *ends, shear_stretch(structure, bar, axis))
     found = list(zip(together, shared.lengths, strict=True))
     lengths = {name: length for (_, name), length in found if name}
     joints = (*((at, length) for (at, name), length in found if not name), *shared.joints)

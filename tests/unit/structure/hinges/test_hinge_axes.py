@@ -11,6 +11,7 @@ from crumple.section import plastic_interaction
 from crumple.structure import Structure, placed_hinges
 from crumple.structure.hinges.elastic_members import yielding_record
 from crumple.structure.hinges.joints.elastic_joints import elastic_joints
+from crumple.structure.hinges.runs.bars import bar_of
 from crumple.structure.hinges.shares import AxisShares
 
 PARTS = {
@@ -177,7 +178,9 @@ def test_elastic_joints_about_two_axes_at_one_place_are_one_joint():
     nodes = {"root": [0, 0, 0], "middle": ["360 mm", 0, 0], "tip": ["600 mm", 0, 0]}
     members = {"first": {"nodes": ["root", "middle"], **metal}, "last": {"nodes": ["middle", "tip"], **metal}}
     thrown = [{"translation": [0, 0, "-6 m/s"], "nodes": ["tip"]}]
-    parts = PARTS | {"nodes": nodes, "initial_velocity": thrown}
+    # a mass in the middle, or both were one bar
+    masses = {"middle": {"node": "middle", "mass": "1 kg"}}
+    parts = PARTS | {"nodes": nodes, "initial_velocity": thrown, "masses": masses}
     whole = Structure(**parts, members=members, hinges={"axes": ["y", "z"]})
     joints = [hinge for hinge in placed_hinges(whole) if hinge.member == "first" and not hinge.plastic]
     assert np.diff([joint.station for joint in joints]).min() > 0.05
@@ -192,7 +195,7 @@ def test_elastic_joints_about_two_axes_that_are_near_are_one_joint(apart, number
         axis: AxisShares({}, ((station, 0.2),), elastic=True, rigid=False)
         for axis, station in (("y", 0.7), ("z", 0.7 - apart))
     }
-    joints = elastic_joints(whole, "bar", [fold], about)
+    joints = elastic_joints(whole, bar_of(whole, "bar"), [fold], about)
     assert len(joints) == number
     assert {joint.axis for joint in joints} == ({"y"} if number == 1 else {"y", "z"})
 

@@ -128,7 +128,7 @@ def _candidates(
         yield replace(_candidate(run, run.nodes[1], last), fold=_beside(structure, run.nodes[1]))
     inner = [(str(i), at) for i, at in enumerate(between, 1)]
     taken = [first, *between, last]
-    beside = [(node, at - ASIDE * half) for node, at in run.between.items()]
+    beside = [(node, at + _aside(run, at, half)) for node, at in run.between.items()]
     held = passes_moment(structure, *ends[0], axes), passes_moment(structure, *ends[1], axes)
     pressed = list(_struck(structure, run, half, ends=True))
     for name, at in (*inner, *struck, *beside):
@@ -159,4 +159,10 @@ def _struck(
     for member, stretch in run.stretches.items():
         for place in struck_places(structure, member, ends):
             rubs = structure.obstacles[place.obstacle].friction > 0.0
-            yield place.obstacle, stretch.along(place.station + (ASIDE * half if rubs else 0.0))
+            at = stretch.along(place.station)
+            yield place.obstacle, at + (_aside(run, at, half) if rubs else 0.0)
+
+
+def _aside(run: StraightRun, at: float, half: float) -> float:
+    """How far beside a place a hinge lies [m]: towards the nearer end of its run, however that leads."""
+    return math.copysign(ASIDE * half, at - run.length / 2.0)

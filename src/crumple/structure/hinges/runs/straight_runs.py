@@ -65,6 +65,12 @@ class StraightRun:
         """Of all [m]."""
         return sum(stretch.length for stretch in self.stretches.values())
 
+    @property
+    def ends(self) -> tuple[tuple[str, str], tuple[str, str]]:
+        """Member and node at its start and at its end."""
+        names = list(self.stretches)
+        return (names[0], self.nodes[0]), (names[-1], self.nodes[1])
+
     def member_at(self, along: float) -> str:
         """Member at a distance from the start [m]; at a node the one before."""
         return list(self.stretches)[bisect_left(list(self.between.values()), along)]

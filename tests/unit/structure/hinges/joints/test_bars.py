@@ -1,0 +1,68 @@
+"""What bends as one: neither nodes inside a tube nor the order of its input change how it bends."""
+
+import numpy as np
+import pytest
+from tests.support.multibody.frames import CLAMP, member, structure
+
+from crumple.structure import placed_hinges
+from crumple.structure.hinges.runs.bars import bar_of
+
+NODES = {"a": (0.0, 0.0, 0.0), "b": (0.4, 0.0, 0.0), "c": (1.0, 0.0, 0.0)}
+HELD = CLAMP | {"far": {"node": "c", "fix": "all"}}
+ORDERS = ("ab bc", "ba bc", "ab cb", "ba cb", "bc ab", "cb ba")
+
+
+def line(order, **parts):
+    """A clamped tube along x: members by their nodes."""
+    members = {ends: member(*ends) | {"hinges": (), "elastic": 6} for ends in order.split()}
+    nodes = {name: NODES[name] for name in sorted({*order} - {" "})}
+    return structure(nodes, members, **{"supports": HELD, "hinges": "auto"} | parts)
+
+
+def joints(whole):
+    """Place and elastic stiffness of every hinge and joint along x, (n, 2)."""
+    found = [(hinge.position[0], hinge.record.elastic_stiffness) for hinge in placed_hinges(whole)]
+    return np.array(sorted(found))
+
+
+@pytest.mark.parametrize("order", ORDERS[1:])
+def test_a_tube_bends_alike_whichever_way_its_members_lead(order):
+    # the hinge at b is 20 micrometres from it, on the side of the nearer end
+    np.testing.assert_allclose(joints(line(order)), joints(line(ORDERS[0])), rtol=1e-6)
+
+
+def test_a_node_adds_only_its_candidate():
+    divided, whole = joints(line("ab bc")), joints(line("ac"))
+    at_node = np.isclose(divided[:, 0], 0.4, atol=1e-3)
+    assert at_node.sum() == 1
+    # the border of a segment at 0.35 lengths of one from the candidate is left out for it
+    others = divided[~at_node, 0]
+    assert np.isin(np.round(others, 9), np.round(whole[:, 0], 9)).all()
+    assert len(whole) - len(others) <= 1
+
+
+@pytest.mark.parametrize("order", ["ac", *ORDERS])
+def test_joints_of_a_bar_share_its_flexibility(order):
+    whole = line(order)
+    places, stiffness = joints(whole).T
+    lengths = whole.flexural_rigidity(order.split()[0], "y") / stiffness
+    for power in range(3):
+        assert np.sum(lengths * places**power) == pytest.approx(1.0 / (power + 1), rel=1e-9)
+
+
+def test_a_joint_belongs_to_the_member_in_which_it_lies():
+    for hinge in placed_hinges(line("ba bc")):
+        assert (hinge.member == "ba") == (hinge.position[0] <= 0.4)
+        assert hinge.station == pytest.approx(abs(hinge.position[0] - 0.4))
+
+
+def test_members_with_other_axes_bend_alone():
+    round_tube = {"tube": {"type": "circular_tube", "diameter": 0.05, "thickness": 0.002}}
+    turned = {"ab": {"up": [0, 0, 1]}, "bc": {"up": [0, 1, 0]}}
+    members = {ends: member(*ends) | {"hinges": (), "elastic": 6} | up for ends, up in turned.items()}
+    whole = structure(NODES, members, supports=HELD, hinges="auto", sections=round_tube)
+    assert list(bar_of(whole, "ab").stretches) == ["ab"]
+    assert list(bar_of(line("ab bc"), "bc").stretches) == ["ab", "bc"]
+    rigid = {ends: member(*ends) | {"hinges": ()} for ends in ("ab", "bc")}
+    whole = structure(NODES, rigid, supports=HELD, hinges="auto")
+    assert list(bar_of(whole, "bc").stretches) == ["bc"]
