@@ -148,8 +148,27 @@ def _carried(structure: StructureParts, bent: _Bent, node: str) -> float:
         # pressed towards the other member, the run turns away from it at the corner
         opens = float(leaving(structure, other, node) @ bent.outwards) > 0.0
         return _most(structure, corner.first, corner.axis, keys, -corner.sense if opens else corner.sense)
-    others = [name for name in structure.members_at.get(node, ()) if name not in bent.run.stretches]
-    return sum(_beside_a_joint(structure, name, bent.about) for name in others)
+    return sum(
+        _beside_a_joint(structure, name, bent.about) for name in _held_beyond(structure, bent.run, node)
+    )
+
+
+def _held_beyond(structure: StructureParts, run: StraightRun, node: str) -> Iterator[str]:
+    """Members beyond an end of a run that something keeps from turning with it: no limb with a free end."""
+    for name in structure.members_at.get(node, ()):
+        if name not in run.stretches and not _is_limb(structure, name, node, set(run.stretches)):
+            yield name
+
+
+def _is_limb(structure: StructureParts, member: str, node: str, behind: set[str]) -> bool:
+    """Whether a member and all beyond it, seen from a node, hang on that node alone and carry no mass."""
+    run = straight_run(structure, member)
+    far = run.nodes[0] if run.nodes[1] == node else run.nodes[1]
+    if structure.supports_at.get(far) or structure.masses_at.get(far) or far == node:
+        return False
+    behind |= run.stretches.keys()
+    others = [name for name in structure.members_at.get(far, ()) if name not in run.stretches]
+    return all(name not in behind and _is_limb(structure, name, far, behind) for name in others)
 
 
 def _beside_a_joint(structure: StructureParts, member: str, about: Floats) -> float:

@@ -262,6 +262,36 @@ def test_an_end_carries_no_more_than_what_holds_it(thickness):
     assert left > 1.05 * left_in_bending(section, steel, 60e-3, moment, strike.spans, (1.0, 1.0))
 
 
+LIMB = "  limb: {nodes: [left, out], section: round, material: steel}\n"
+
+
+@pytest.mark.parametrize(
+    ("more", "held"),
+    [
+        (LIMB, False),
+        (LIMB + "  tip: {nodes: [out, up], section: round, material: steel}\n", False),
+        (LIMB + "masses: {m: {node: out, mass: 5 kg}}\n", True),
+        (LIMB + "  brace: {nodes: [out, low], section: round, material: steel}\n", True),
+    ],
+)
+def test_a_limb_with_a_free_end_holds_no_beam(more, held):
+    """It turns with the joint: the beam is dented as on the weak post alone, or as between clamps."""
+    thin = "  thin: {type: circular_tube, diameter: 40 mm, thickness: 2 mm}\n  round:"
+    post = "post: {nodes: [low, left], section: "
+    text = TEXT.replace("  round:", thin, 1).replace(post + "round", post + "thin")
+    nodes = "  out: [-300 mm, 0 m, 0 m]\n" + ("  up: [-300 mm, 0 m, 0.2 m]\n" if "up]" in more else "")
+    text = text.replace("  low: [", nodes + "  low: [")
+    text = text.replace("hinges: auto\n", more + "hinges: auto\n")
+    structure = loads(
+        text.replace("SECTION", "round").replace("OBSTACLE", HIGH).replace("LOWER", "0")
+    ).structure
+    left, strike, moment = _left(structure)
+    (law,) = [hinge.law for hinge in plastic_hinges(structure) if hinge.name == "post-left"]
+    section, steel = structure.section_of("beam"), structure.material_of("beam")
+    shares = (1.0 if held else _largest(law) / moment, 1.0)
+    assert left == pytest.approx(left_in_bending(section, steel, 60e-3, moment, strike.spans, shares))
+
+
 @pytest.mark.parametrize(("above", "closes"), [(True, True), (False, False)])
 def test_a_corner_carries_the_moment_of_its_law_in_its_sense(above, closes):
     """Pressed from outside, the beam closes its corner with the post below; from inside it opens it."""
