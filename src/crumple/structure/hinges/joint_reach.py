@@ -19,7 +19,7 @@ import numpy as np
 
 from crumple.numeric.arrays import Floats
 from crumple.structure.geometry import NARROWEST
-from crumple.structure.hinges.corners import corners, is_whole, leaving
+from crumple.structure.hinges.corners import corners, leaving
 from crumple.structure.keys.obstacles import Obstacle
 from crumple.structure.parts import StructureParts
 from crumple.structure.struck_places import LEAST, PLACES, axis_gaps
@@ -51,7 +51,7 @@ def _joint_reach(structure: StructureParts, member: str, node: str) -> float:
     reach = 0.0
     own = leaving(structure, member, node)
     for other in others:
-        if not is_whole(structure, other):
+        if not structure.is_whole(other):
             continue
         along = leaving(structure, other, node)
         cosine, sine = float(own @ along), float(np.linalg.norm(np.cross(own, along)))
@@ -83,7 +83,7 @@ def _nearest_is_joint(structure: StructureParts, obstacle: Obstacle) -> bool:
 
     Of a member that lies along the obstacle all places are equally near, its joints among them.
     """
-    names = [name for name in obstacle.members or structure.members if structure.has_line(name)]
+    names = [name for name in obstacle.members or structure.members if structure.is_whole(name)]
     if not names:
         return False
     gaps = axis_gaps(structure, obstacle, names)
