@@ -26,6 +26,7 @@ from crumple.numeric.arrays import Floats
 from crumple.section import Axis, Section
 from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import any_automatic
+from crumple.structure.hinges.joint_reach import unbent_parts
 from crumple.structure.hinges.law_choice import formula
 from crumple.structure.keys.member import Member
 from crumple.structure.parts import StructureParts
@@ -108,7 +109,7 @@ def joint_stations(
     hinges: tuple[float, ...],
     others: tuple[float, ...] = (),
 ) -> tuple[float, ...]:
-    """Borders of a member's segments [m] that are clear of its hinges and of its rigid parts.
+    """Borders of a member's segments [m] that are clear of its hinges, rigid parts and rigid joints.
 
     Parameters
     ----------
@@ -124,7 +125,7 @@ def joint_stations(
         return ()
     length = structure.frame_of(member).length
     segment = length / number
-    rigid = structure.members[member].rigid_parts(length)
+    rigid = unbent_parts(structure, member)
     # without hinges a joint lies in the middle of each segment
     shift = 0.5 if not hinges else 1.0
     borders = (segment * (i + shift) for i in range(number if not hinges else number - 1))

@@ -63,6 +63,26 @@ def _joint_reach(structure: StructureParts, member: str, node: str) -> float:
     return min(reach, LARGEST_SHARE * structure.frame_of(member).length)
 
 
+def unbent_parts(structure: StructureParts, member: str) -> tuple[tuple[float, float], ...]:
+    """Stretches of a member that do not deform [m]: rigid parts, and of elastic members those in joints.
+
+    Hinges of rigid bars stand for members from node to node.
+    """
+    spec, length = structure.members[member], structure.frame_of(member).length
+    rigid = spec.rigid_parts(length)
+    if not spec.elastic:
+        return rigid
+    first, last = (joint_reach(structure, member, node) for node in spec.nodes)
+    ends = [(0.0, first), (length - last, length)]
+    merged: list[tuple[float, float]] = []
+    for a, b in sorted((a, b) for a, b in (*rigid, *ends) if a < b):
+        if merged and a <= merged[-1][1]:
+            merged[-1] = (merged[-1][0], max(b, merged[-1][1]))
+        else:
+            merged.append((a, b))
+    return tuple(merged)
+
+
 def strikes_joint(structure: StructureParts) -> bool:
     """Whether structure or obstacle moves at the start, and a nearest place of the members is a rigid joint.
 

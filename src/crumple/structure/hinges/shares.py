@@ -15,7 +15,7 @@ from crumple.structure.hinges.corner_laws import MITRED, corner_laws, corner_nam
 from crumple.structure.hinges.corners import corners
 from crumple.structure.hinges.elastic_members import joint_stations, segments_of, shear_stretch
 from crumple.structure.hinges.flexibility import flexibility, tributary_lengths
-from crumple.structure.hinges.joint_reach import joint_reach
+from crumple.structure.hinges.joint_reach import joint_reach, unbent_parts
 from crumple.structure.hinges.places import HingePlace, law_of, law_spec, member_hinge_places
 from crumple.structure.parts import StructureParts
 
@@ -91,7 +91,7 @@ def member_shares(
         Whether the member's first and second end carry no moment.
     """
     member, length = structure.members[name], structure.frame_of(name).length
-    rigid = member.rigid_parts(length)
+    rigid = unbent_parts(structure, name)
     about = {axis: _about(structure, name, places, axis, (length, rigid, free)) for axis in AXES}
     found = {axis: shares for axis, shares in about.items() if shares is not None}
 
@@ -183,7 +183,7 @@ def joint_twists(structure: StructureParts, member: str, stations: Sequence[floa
     if not own and not _between_corners(structure, member):
         return {}
     length = structure.frame_of(member).length
-    rigid = spec.rigid_parts(length)
+    rigid = unbent_parts(structure, member)
     if structure.material_of(member).hardening is not None:
         points = sorted([*own, *stations])
         lengths = dict(zip(points, tributary_lengths(points, length, rigid), strict=True))
