@@ -79,7 +79,7 @@ Title = Annotated[str, Field(max_length=LONGEST_TITLE), AfterValidator(_printabl
 
 
 def run_problems(outputs: Outputs, duration: float) -> list[Problem]:
-    """More samples than a run may store, and pictures after its end.
+    """More samples than a run may store, an interval longer than it, and pictures after its end.
 
     Parameters
     ----------
@@ -98,6 +98,10 @@ def run_problems(outputs: Outputs, duration: float) -> list[Problem]:
         todo = f"write at least {format_quantity(shortest, 's', 3)}, or a shorter duration"
         came = f"{outputs.every:g} s"
         problems.append(Problem(what, came, f"at most {MOST_SAMPLES} samples", todo, "outputs.every"))
+    if (outputs.every or 0.0) > duration * (1.0 + 1e-9):
+        what, todo = "this interval is longer than the run", "correct the interval or the duration"
+        allowed = f"at most {duration:g} s, the duration"
+        problems.append(Problem(what, f"{outputs.every:g} s", allowed, todo, "outputs.every"))
     for i, time in enumerate(outputs.pictures):
         if time > duration * (1.0 + 1e-9):
             what, todo = "this picture time is after the end of the run", "correct the time or the duration"

@@ -170,16 +170,17 @@ def _obstacle_across(
 def _uncovered(structure: StructureParts, height: float, sense: float, pole: CylinderObstacle) -> float:
     """How far from symmetric to the plane a pole across it is [-]; 0 if it reaches through the sections."""
     assert pole.length is not None
-    reach = max(
-        float(np.linalg.norm(structure.section_of(m).outline(), axis=1).max()) for m in structure.members
-    )
+    sections = (structure.section_of(name) for name in structure.members if structure.is_whole(name))
+    reach = max((float(np.linalg.norm(one.outline(), axis=1).max()) for one in sections), default=0.0)
     low, high = sorted((height, height + float(np.copysign(pole.length, sense))))
     return 0.0 if low <= -reach and high >= reach else abs(low + high) / pole.length
 
 
 def _any_node(structure: StructureParts) -> str:
-    """A node of a member: all are in the plane."""
-    return next(iter(structure.members.values())).nodes[0]
+    """A node of a member: all are in the plane.  One that exists: a refused one is not among them."""
+    return next(
+        node for member in structure.members.values() for node in member.nodes if node in structure.nodes
+    )
 
 
 def _along(vector: Iterable[float], normal: Floats) -> float:

@@ -150,6 +150,14 @@ class StructureParts(Spec):
             return False
         return True
 
+    def is_whole(self, member: str) -> bool:
+        """Whether a member's line, section and metals are there; always so in a sound structure."""
+        if not self.has_line(member) or self.members[member].section not in self.sections:
+            return False
+        spec = self.members[member]
+        metals = (spec.material, *self.sections[spec.section].named_materials().values())
+        return all(metal in self.materials for metal in metals)
+
     def frame_of(self, member: str) -> Frame:
         """Origin, axes and length of a member at the start.
 

@@ -98,7 +98,7 @@ def _struck_places(structure: StructureParts) -> Mapping[str, tuple[StruckPlace,
     for name, obstacle in structure.obstacles.items():
         if isinstance(obstacle, PlaneObstacle) and obstacle.edge is None:
             continue
-        members = [one for one in obstacle.members or structure.members if structure.has_line(one)]
+        members = [one for one in obstacle.members or structure.members if structure.is_whole(one)]
         path = _path(structure, obstacle)
         for member in members if path is not None else _nearest(structure, obstacle, members):
             place = _touches(structure, member, name, path)
@@ -121,7 +121,7 @@ def travel_to_joints(structure: StructureParts, obstacle: str) -> float:
         outlines = (
             structure.section_of(name).outer_outline()
             for name in members
-            if structure.has_line(name) and (spec.members is None or name in spec.members)
+            if structure.is_whole(name) and (spec.members is None or name in spec.members)
         )
         reach = min((float(np.ptp(outline, axis=0).min()) / 2.0 for outline in outlines), default=None)
         if reach is not None:

@@ -184,6 +184,15 @@ def test_too_many_samples_are_refused_with_the_number_and_what_to_write(text):
         assert loads(short.replace("every: 0.5 ms", f"every: {shortest}"))
 
 
+def test_an_interval_longer_than_the_run_is_refused(text):
+    """A unit too large, as s for ms, would leave the first and the last sample alone."""
+    [problem] = refused(text.replace("every: 0.5 ms", "every: 0.5 s"))
+    assert problem.where == "outputs.every"
+    assert problem.what == "this interval is longer than the run"
+    assert problem.allowed == "at most 0.1 s, the duration"
+    assert loads(text.replace("every: 0.5 ms", "every: 100 ms"))
+
+
 def test_pictures_after_the_end_are_refused(text):
     [problem] = refused(text.replace("duration: 100 ms", "duration: 99 ms"))
     assert problem.where == "outputs.pictures[5]"

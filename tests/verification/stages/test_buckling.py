@@ -108,4 +108,6 @@ def test_a_brace_buckles_and_yields_with_members_that_bend(record_figure):
         "largest force on a brace over Euler's load between pinned ends", along / pinned, 1.75, 0.17
     )
     assert 1.5 < along / pinned < 2.05
-    assert result["hinge.brace-1.rotation"][-1] == pytest.approx(-0.47, abs=0.05)
+    # the largest moment lies between the hinge in the middle and the joint nearer the pin: either may take
+    # the kink, with nearly the same work (172 J with the hinge, 182 J with the joint, which does not soften)
+    assert result["member.brace.energy"][-1] == pytest.approx(177.0, rel=0.05)

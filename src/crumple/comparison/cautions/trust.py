@@ -11,6 +11,7 @@ import numpy as np
 from crumple.comparison.cautions.directions import direction_sentences
 from crumple.comparison.cautions.fold_trust import across_joint, fold_sentences, largest_turn
 from crumple.comparison.cautions.joints import joint_sentences
+from crumple.comparison.cautions.metals import metal_sentences
 from crumple.comparison.cautions.mode_followed import mode_sentences
 from crumple.comparison.cautions.run_cautions import coarse_mesh, run_sentences
 from crumple.comparison.cautions.shortfall import shortfall
@@ -63,6 +64,7 @@ def trust_of(comparison: Comparison, structure: Structure) -> Trust:
         *_contact(comparison, bool(structure.obstacles)),
         *direction_sentences(comparison),
         *joint_sentences(comparison.reference, structure),
+        *metal_sentences(comparison.reference, structure),
         *_reference(comparison.reference),
         *shortfall(comparison),
         *run_sentences(comparison),

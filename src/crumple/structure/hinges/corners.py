@@ -115,7 +115,7 @@ def untreated(structure: StructureParts) -> Mapping[str, str]:
 def _corners(structure: StructureParts) -> tuple[dict[str, Corner], dict[str, str]]:
     found, reasons = {}, {}
     for node, members in structure.members_at.items():
-        if len(members) < 2 or not all(is_whole(structure, name) for name in members):
+        if len(members) < 2 or not all(structure.is_whole(name) for name in members):
             continue
         answer = _corner(structure, node, members)
         if isinstance(answer, Corner):
@@ -128,7 +128,7 @@ def _corners(structure: StructureParts) -> tuple[dict[str, Corner], dict[str, st
 def continues(structure: StructureParts, node: str) -> bool:
     """Whether the members at a node are one tube in line: two of one section, placed alike, and no more."""
     members = structure.members_at.get(node, ())
-    if len(members) != 2 or not all(is_whole(structure, name) for name in members):
+    if len(members) != 2 or not all(structure.is_whole(name) for name in members):
         return False
     first, second = members
     arriving, onward = -leaving(structure, first, node), leaving(structure, second, node)
@@ -139,17 +139,6 @@ def continues(structure: StructureParts, node: str) -> bool:
     bent = float(np.linalg.norm(across))
     normal = across / bent if bent > ALONG else structure.frame_of(first).y
     return _lie_alike(structure, ((first, arriving), (second, onward)), normal)
-
-
-def is_whole(structure: StructureParts, name: str) -> bool:
-    """Whether a member's line, section and metals are there; always so in a sound structure."""
-    member = structure.members[name]
-    section = structure.sections.get(member.section)
-    if section is None or not structure.has_line(name):
-        return False
-    return all(
-        metal in structure.materials for metal in (member.material, *section.named_materials().values())
-    )
 
 
 def _corner(structure: StructureParts, node: str, members: list[str]) -> Corner | str:

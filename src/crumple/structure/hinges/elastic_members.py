@@ -110,7 +110,7 @@ def joint_stations(
     hinges: tuple[float, ...],
     others: tuple[float, ...] = (),
 ) -> tuple[float, ...]:
-    """Borders of a bar's segments [m] that are clear of its hinges and of its rigid parts.
+    """Borders of a bar's segments [m] that are clear of its hinges, rigid parts and rigid joints.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ import numpy as np
 
 from crumple.numeric.arrays import Floats
 from crumple.structure.geometry import NARROWEST
-from crumple.structure.hinges.corners import corners, is_whole, leaving
+from crumple.structure.hinges.corners import corners, leaving
 from crumple.structure.keys.obstacles import Obstacle
 from crumple.structure.parts import StructureParts
 from crumple.structure.struck_places import LEAST, PLACES, axis_gaps
@@ -51,7 +51,7 @@ def _joint_reach(structure: StructureParts, member: str, node: str) -> float:
     reach = 0.0
     own = leaving(structure, member, node)
     for other in others:
-        if not is_whole(structure, other):
+        if not structure.is_whole(other):
             continue
         along = leaving(structure, other, node)
         cosine, sine = float(own @ along), float(np.linalg.norm(np.cross(own, along)))
@@ -61,6 +61,26 @@ def _joint_reach(structure: StructureParts, member: str, node: str) -> float:
         theirs = _half_depth(structure, other, (own - cosine * along) / sine)
         reach = max(reach, (theirs + cosine * mine) / sine)
     return min(reach, LARGEST_SHARE * structure.frame_of(member).length)
+
+
+def unbent_parts(structure: StructureParts, member: str) -> tuple[tuple[float, float], ...]:
+    """Stretches of a member that do not deform [m]: rigid parts, and of elastic members those in joints.
+
+    Hinges of rigid bars stand for members from node to node.
+    """
+    spec, length = structure.members[member], structure.frame_of(member).length
+    rigid = spec.rigid_parts(length)
+    if not spec.elastic:
+        return rigid
+    first, last = (joint_reach(structure, member, node) for node in spec.nodes)
+    ends = [(0.0, first), (length - last, length)]
+    merged: list[tuple[float, float]] = []
+    for a, b in sorted((a, b) for a, b in (*rigid, *ends) if a < b):
+        if merged and a <= merged[-1][1]:
+            merged[-1] = (merged[-1][0], max(b, merged[-1][1]))
+        else:
+            merged.append((a, b))
+    return tuple(merged)
 
 
 def strikes_joint(structure: StructureParts) -> bool:
@@ -83,7 +103,7 @@ def _nearest_is_joint(structure: StructureParts, obstacle: Obstacle) -> bool:
 
     Of a member that lies along the obstacle all places are equally near, its joints among them.
     """
-    names = [name for name in obstacle.members or structure.members if structure.has_line(name)]
+    names = [name for name in obstacle.members or structure.members if structure.is_whole(name)]
     if not names:
         return False
     gaps = axis_gaps(structure, obstacle, names)

@@ -114,7 +114,7 @@ def braced():
         hinges="auto",
         supports={"s1": {"node": "f1", "fix": "all"}, "s2": {"node": "f2", "fix": "all"}},
         masses={"m": {"node": "k1", "mass": 150.0}},
-        initial_velocity=[{"nodes": ("k1",), "translation": (5.0, 0.0, 0.0)}],
+        initial_velocity=[{"nodes": ("k1",), "translation": (10.0, 0.0, 0.0)}],
     )
 
 

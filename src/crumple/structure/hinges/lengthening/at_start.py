@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from crumple.numeric.arrays import Floats
-from crumple.structure.hinges.corners import is_whole
 from crumple.structure.initial_fields import fields_of_mass, fields_of_member
 from crumple.structure.keys.motion import InitialVelocity
 from crumple.structure.keys.obstacles import Obstacle
@@ -23,7 +22,7 @@ def nodes_at_start(structure: StructureParts) -> dict[str, tuple[float, Floats]]
         parts.setdefault(node, []).append((mass, sum(acting, np.zeros(3))))
 
     for name, spec in structure.members.items():
-        if is_whole(structure, name):
+        if structure.is_whole(name):
             density = structure.material_of(name).density
             half = structure.section_of(name).mass_per_length(density) * structure.frame_of(name).length / 2.0
             fields = fields_of_member(structure.initial_velocity, name)

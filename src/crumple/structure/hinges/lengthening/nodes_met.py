@@ -13,7 +13,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from crumple.numeric.arrays import Floats
-from crumple.structure.hinges.corners import is_whole, leaving
+from crumple.structure.hinges.corners import leaving
 from crumple.structure.hinges.lengthening.framework import free_directions
 from crumple.structure.keys.obstacles import Obstacle, PlaneObstacle, gap
 from crumple.structure.parts import StructureParts
@@ -52,7 +52,7 @@ def supports_met(structure: StructureParts) -> Iterator[tuple[str, str]]:
 
 def _first(structure: StructureParts, obstacle: Obstacle) -> Iterator[str]:
     wanted = obstacle.members or structure.members
-    names = [name for name in wanted if name in structure.members and is_whole(structure, name)]
+    names = [name for name in wanted if name in structure.members and structure.is_whole(name)]
     if isinstance(obstacle, PlaneObstacle) and obstacle.edge is None:
         normal = np.asarray(obstacle.normal, float) / np.linalg.norm(obstacle.normal)
         for node, members in structure.members_at.items():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from crumple.structure.hinges.joint_reach import unbent_parts
 from crumple.structure.hinges.runs.straight_runs import StraightRun, Stretch, straight_run
 from crumple.structure.parts import StructureParts
 
@@ -30,10 +31,10 @@ def _bar(structure: StructureParts, member: str) -> StraightRun:
 
 
 def rigid_along(structure: StructureParts, bar: StraightRun) -> tuple[tuple[float, float], ...]:
-    """Stretches of a bar that do not deform [m], increasing."""
+    """Stretches of a bar that do not deform [m], increasing: rigid parts, and what lies in rigid joints."""
     found: list[tuple[float, float]] = []
     for name, stretch in bar.stretches.items():
-        for part in structure.members[name].rigid_parts(stretch.length):
+        for part in unbent_parts(structure, name):
             first, second = sorted(stretch.along(at) for at in part)
             found.append((first, second))
     return tuple(sorted(found))
