@@ -35,6 +35,12 @@ as its surroundings and its vibration would determine the time steps."""
 MOST = 1.4
 """Largest length of a hinge over its tributary one where a free end leaves one condition: a bar cut in two
 equal parts needs 4/3."""
+FEW = 3
+"""Number of points below which a bar with a free end has the weights of one without, or a single one."""
+MIDPOINT = 0.75
+"""Distance of the last point from a free end, over that from the next, up to which it is in a middle."""
+ALMOST = 0.1
+"""Change of the weights of the trapezoidal rule up to which they stand for a bar with a free end."""
 EXACT = 1e-9
 """Error of the three moments, over the flexible length, that is rounding."""
 PLACES = 24
@@ -95,6 +101,8 @@ def flexibility(
     """
     bar = _Bar(length, _complement(length, rigid), shear)
     points = np.asarray(stations, float)
+    if (beside := bar.beside_free_ends(points, free)) is not None:
+        return Flexibility(_numbers(beside))
     lengths, least = bar.exact(points)
     if least >= LEAST:
         return Flexibility(_numbers(lengths))
@@ -169,6 +177,27 @@ class _Bar:
         integrals: Floats = powers / order[:, 0] * self.length / 2.0
         integrals[2] += 4.0 * self.shear / self.length**2 * self.total
         return integrals
+
+    def beside_free_ends(self, points: Floats, free: tuple[bool, bool]) -> Floats | None:
+        """Weights beside free ends, where no moment is: a part of the bar there bends with nothing.
+
+        Those of the trapezoidal rule, with points at free ends, or of the midpoint rule where the last point
+        is half as far from the end as from the next.  Both are exact for half waves between free ends; with
+        one, times what makes them exact for linear moments that vanish there.  None where points are few.
+        """
+        if not any(free) or len(points) < FEW:
+            return None
+        sides = zip((0.0, self.length), (points[:2], points[:-3:-1]), free, strict=True)
+        gaps = [(end, abs(near - end), abs(next_ - near)) for end, (near, next_), is_free in sides if is_free]
+        ends = [end for end, _, _ in gaps]
+        together = np.union1d(points, [end for end, gap, apart in gaps if gap > MIDPOINT * apart])
+        near = self.tributary(together)[np.isin(together, points)]
+        if all(free):
+            return near
+        arms = (points - ends[0]) ** 2
+        integral = sum(((b - ends[0]) ** 3 - (a - ends[0]) ** 3) / 3.0 for a, b in self.flexible)
+        factor = (integral + self.shear * self.total) / float(near @ arms)
+        return near * factor if abs(factor - 1.0) <= ALMOST else None
 
     def with_free_end(self, points: Floats, free: tuple[bool, bool]) -> Floats | None:
         """Weights where moments vanish at free ends: exact for the one linear field that is left."""
