@@ -125,7 +125,7 @@ def _candidates(
     pressed_free = not first_held and not last_held and stopped(structure)
     number = max(2, number) if pressed_free and structure.members[names[0]].elastic else number
     between = np.linspace(first, last, number + 1)[1:-1].tolist()
-    if number == 2 and spacing is None and first_held != last_held:
+    if number == 2 and first_held != last_held and not braced(structure).isdisjoint(run.stretches):
         between = [first + (1.0 - KINK if first_held else KINK) * (last - first)]
     if first_held:
         yield replace(_candidate(run, run.nodes[0], first), fold=_beside(structure, run.nodes[0]))
