@@ -376,7 +376,7 @@ void bind(nb::module_& m) {
         .def("keep_guide", alone(+[](Simulation& s) { s.keep_guide(); }))
         .def("guide", alone(+[](Simulation& s) { return s.guide(); }))
         .def("be_guided_by", alone(+[](Simulation& s, std::shared_ptr<Guide> lead, bool pairs) {
-                 s.be_guided_by(pairs ? std::make_shared<Guide>(in_pairs(*lead)) : std::move(lead));
+                 s.be_guided_by(pairs ? std::make_shared<Guide>(in_pairs(std::move(lead))) : std::move(lead));
              }))
         .def("crushed", alone(&crushed))
         .def("freedoms", alone(&freedoms))

@@ -1,6 +1,7 @@
 // Runs that are guided by the steps of a run of a similar model, see guide.hpp.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "spatial/run/simulation.hpp"
 
@@ -28,33 +29,53 @@ bool make_pair(const GuideStep& a, const GuideStep& b) {
 
 }  // namespace
 
-Guide in_pairs(const Guide& steps) {
+void join(GuideStep& step, const GuideStep& next) {
+    step.end = next.end;
+    step.after = next.after;
+    step.to = next.to;
+    step.rates = next.rates;
+    step.accurate = step.accurate && next.accurate;
+}
+
+Guide in_pairs(std::shared_ptr<const Guide> steps) {
     Guide out;
     out.paired = true;
-    for (size_t i = 0; i < steps.steps.size(); i++) {
-        const GuideStep& step = steps.steps[i];
-        out.steps.push_back(step);
-        if (i + 1 == steps.steps.size() || !make_pair(step, steps.steps[i + 1])) continue;
-        const GuideStep& second = steps.steps[++i];
-        out.steps.back().end = second.end;
-        out.steps.back().after = second.after;
-        out.steps.back().to = second.to;
-        out.steps.back().rates = second.rates;
+    const std::vector<GuideStep>& all = steps->steps;
+    for (size_t i = 0; i < all.size(); i++) {
+        out.steps.push_back(all[i]);
+        out.first_part.push_back(i);
+        if (i + 1 < all.size() && make_pair(all[i], all[i + 1])) join(out.steps.back(), all[++i]);
     }
+    out.parts = std::move(steps);
     return out;
 }
 
 // Length of the next step before other limits: that of the leader, or up to the end of one of its steps, or what the error suggests.
 double Simulation::planned() {
     leading_ = nullptr;
+    on_second_part_ = false;
     if (!lead_ || refused_ || !until_.empty() || stepper_.stage().quasi_static) return length_.allowed();
     const std::vector<GuideStep>& steps = lead_->steps;
+    const GuideStep* second = std::exchange(second_part_, nullptr);
+    on_second_part_ = begins_here(second);
+    if (on_second_part_) return lead_by(*second);
     while (next_lead_ < steps.size() && steps[next_lead_].end - state_.t < far_enough * steps[next_lead_].length()) next_lead_++;
     if (next_lead_ == steps.size()) return length_.allowed();
     const GuideStep& next = steps[next_lead_];
-    if (std::fabs(next.begin - state_.t) > rounding * next.length()) return std::min(length_.allowed(), next.end - state_.t);
-    leading_ = &next;
-    return next.end - state_.t;
+    if (!begins_here(&next)) return std::min(length_.allowed(), next.end - state_.t);
+    if (!lead_->is_pair(next_lead_) || !one_by_one_.next()) return lead_by(next);
+    const GuideStep* part = &lead_->parts->steps[lead_->first_part[next_lead_]];
+    second_part_ = part + 1;
+    return lead_by(*part);
+}
+
+bool Simulation::begins_here(const GuideStep* step) const {
+    return step && std::fabs(step->begin - state_.t) <= rounding * step->length();
+}
+
+double Simulation::lead_by(const GuideStep& step) {
+    leading_ = &step;
+    return step.end - state_.t;
 }
 
 // The end velocities that the leader suggests for a step of length h, its change of the velocities added; without a leader those that
@@ -95,13 +116,25 @@ void Simulation::keep_for_guide(double h) {
     tried_ = {state_.t, state_.t + h, state_.velocity, stepper_.end_velocity(), stepper_.end_rates(), {}, {}, false, strikes_ > 0};
 }
 
+// Whether the step just solved needs no halves because a leader's step shows its error.
+bool Simulation::like_leader() {
+    if (!leading_ || !leading_->accurate || coarse_.contact.closing > 0) return false;
+    const bool pair = lead_->is_pair(next_lead_) && leading_ == &lead_->steps[next_lead_];
+    // vibration of a changed model, or after other steps, is soon in another phase: changes of the velocities do not compare
+    if (stepper_.elastic() && !pair) return true;
+    const bool found = changes_as_leader(pair);
+    if (pair) {
+        one_by_one_.tried_pair(found);
+    } else if (lead_->paired && !found) {
+        one_by_one_.single_departed();
+    }
+    return found;
+}
+
 // Whether the step just solved in one changes the velocities as the leader's did: then it has the leader's error, up to that share of
 // it.  Lengths make the rotations comparable, an inertia of a bar of the model's length.  Vibration above the resolved frequency does not
 // count.
-bool Simulation::like_leader() {
-    if (!leading_ || !leading_->accurate || coarse_.contact.closing > 0) return false;
-    // vibration of a changed model is soon in another phase: changes of the velocities do not compare
-    if (stepper_.elastic() && !lead_->paired) return true;
+bool Simulation::changes_as_leader(bool pair) {
     const size_t n = state_.velocity.size();
     std::vector<Twist> theirs(n), miss(n);
     for (size_t i = 0; i < n; i++) {
@@ -114,9 +147,9 @@ bool Simulation::like_leader() {
         filter_change(theirs);
     }
     const double missed = energy_norm(miss), gained = energy_norm(theirs);
-    // a pair of steps of the same model is more accurate than one: the difference is the error
     const double error = (lead_->paired ? 1 : alike) * step_tolerance_ * speed_;
-    if (lead_->paired) return missed <= error * error && travels_as_leader(vibrates);
+    // a pair of steps of the same model is more accurate than one: the difference is the error
+    if (pair) return missed <= error * error && travels_as_leader(vibrates);
     return missed <= error * error + alike * alike * gained;
 }
 
@@ -144,13 +177,24 @@ bool Simulation::travels_as_leader(bool vibrates) {
     return worst <= step_tolerance_ * scale_;
 }
 
+// Whether the step just taken and the one before it are a pair of the leader: to those who follow they are one step.
+bool Simulation::completes_pair() const {
+    if (!leading_ || !on_second_part_ || guide_->steps.empty()) return false;
+    const GuideStep &pair = lead_->steps[next_lead_], &before = guide_->steps.back();
+    return before.accurate && tried_.accurate && !tried_.struck && std::fabs(before.begin - pair.begin) <= rounding * pair.length();
+}
+
 void Simulation::add_to_guide(bool accurate) {
     if (!guide_ || !guide_->kept) return;
     tried_.end = state_.t;
     tried_.accurate = accurate;
     tried_.from = fine_.pose;
     tried_.to = state_.pose;
-    guide_->steps.push_back(tried_);
+    if (completes_pair()) {
+        join(guide_->steps.back(), tried_);
+    } else {
+        guide_->steps.push_back(tried_);
+    }
     const size_t values = 26 * tried_.before.size() + tried_.rates.size();
     if (guide_->steps.size() * values <= most_values) return;
     guide_->steps.clear();

@@ -139,7 +139,11 @@ private:
     const std::vector<Twist>* expected(double h);
     const std::vector<Twist>* expected_by_follower(double h);
     void keep_for_guide(double h);
+    bool begins_here(const GuideStep* step) const;
+    double lead_by(const GuideStep& step);
     bool like_leader();
+    bool changes_as_leader(bool pair);
+    bool completes_pair() const;
     double energy_norm(const std::vector<Twist>& velocity) const;
     bool travels_as_leader(bool vibrates);
     bool prepare_filter(double h);
@@ -207,6 +211,9 @@ private:
     std::shared_ptr<const Guide> lead_;     // of another run; the index of its next step, and that which guides the present one
     size_t next_lead_ = 0;
     const GuideStep* leading_ = nullptr;
+    OneByOne one_by_one_;                   // of the leader's pairs
+    const GuideStep* second_part_ = nullptr;  // of the pair whose first part is being taken alone
+    bool on_second_part_ = false;           // whether the present step is one
     bool in_one_ = false;                   // the step was not repeated in halves, see `like_leader`
     bool refused_ = false;                  // a step from this state was rejected
     std::vector<Pass> passes_;        // passes of the last solved step if steps are stored

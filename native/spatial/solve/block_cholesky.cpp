@@ -155,8 +155,7 @@ size_t BlockCholesky::block(int a, int b) const {
     return std::lower_bound(begin, end, wanted, [&](const Entry& e, int place) { return place_[at(e.node)] < place; })->block;
 }
 
-void BlockCholesky::clear() {
-    std::fill(values_.begin(), values_.end(), 0.0);
+void BlockCholesky::renew() {
     std::fill(changed_.begin(), changed_.end(), 1);
 }
 

@@ -32,8 +32,13 @@ public:
     // first row of a node in a right-hand side, and the number of all rows
     int start(int node) const { return start_[static_cast<size_t>(node)]; }
     int rows() const { return start_.back(); }
-    // sets A to zero
-    void clear();
+    // Before all of A is set again; blocks that only the factor has stay zero, and those of idle nodes are not used.
+    void renew();
+    // number of values
+    std::size_t size() const { return values_.size(); }
+    // whether a node has neither held rows nor a tangent; and whether the same nodes were idle when A was last factorised
+    bool idle(int node) const { return idle_[static_cast<std::size_t>(node)] != 0; }
+    bool listed() const { return listed_; }
     // sets the root R of a node's tangent (laws x laws, row by row)
     void set_root(int node, const double* root);
     // Factorises A with the present tangents.  Redundant rows get a zero solution; the pivots of other held rows are at least rounding.
@@ -51,7 +56,6 @@ private:
         int rows_a, inner;
     };
     void eliminate(std::vector<std::vector<int>>& near);
-    bool idle(int node) const { return idle_[static_cast<size_t>(node)] != 0; }
     void list_used();
     void list_updates();
     template <class Use>

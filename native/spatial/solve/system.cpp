@@ -1,6 +1,7 @@
 #include "spatial/solve/system.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/machine.hpp"
 
@@ -51,10 +52,13 @@ void System::analyse(size_t bodies, const std::vector<Link>& links) {
                 if (a != b && !matrix_.later(a, b)) continue;
                 const int side_a = links[at(a)].body[0] == static_cast<int>(body) ? 0 : 1;
                 const int side_b = links[at(b)].body[0] == static_cast<int>(body) ? 0 : 1;
-                pairs_.push_back({2 * b + side_b, 2 * a + side_a, links[at(b)].rows(), links[at(a)].rows(), matrix_.block(a, b), side_a != side_b});
+                pairs_.push_back({2 * b + side_b, 2 * a + side_a, links[at(b)].rows(), links[at(a)].rows(), matrix_.block(a, b), side_a != side_b, false});
             }
         }
     }
+    std::vector<char> seen(matrix_.size(), 0);
+    for (Pair& pair : pairs_) pair.first = !std::exchange(seen[pair.block], char(1));
+    left_.clear();
     const size_t n = at(matrix_.rows());
     rows_.resize(n);
     sides_.resize(2 * links.size());
@@ -83,12 +87,36 @@ void System::assemble(const std::vector<Row>& rows) {
             }
         }
     }
-    matrix_.clear();
-    double* values = matrix_.values();
-    for (const Pair& pair : pairs_) {
-        const double *p = sides_[at(pair.a)].p, *q = sides_[at(pair.b)].q;
-        blocks_.add_product(values + pair.block, p, q, pair.negative ? -1 : 1, pair.rows_a, pair.rows_b);
+    matrix_.renew();
+    left_.clear();
+    for (size_t i = 0; i < pairs_.size(); i++) {
+        // most contacts within reach are open
+        if (pairs_[i].a / 2 != pairs_[i].b / 2 && idle(pairs_[i])) {
+            left_.push_back(i);
+        } else {
+            add(pairs_[i]);
+        }
     }
+}
+
+void System::add(const Pair& pair) {
+    const double *p = sides_[at(pair.a)].p, *q = sides_[at(pair.b)].q;
+    double* block = matrix_.values() + pair.block;
+    if (pair.first) std::fill_n(block, pair.rows_a * pair.rows_b, 0.0);
+    blocks_.add_product(block, p, q, pair.negative ? -1 : 1, pair.rows_a, pair.rows_b);
+}
+
+// adds the pairs whose nodes have got tangents since the matrix was assembled
+void System::add_left() {
+    size_t kept = 0;
+    for (const size_t i : left_) {
+        if (idle(pairs_[i])) {
+            left_[kept++] = i;
+        } else {
+            add(pairs_[i]);
+        }
+    }
+    left_.resize(kept);
 }
 
 void System::set_tangent(size_t link, const double* vectors, const double* roots) {

@@ -42,7 +42,10 @@ public:
     // no impulses of laws
     void free_laws();
     // factorises the matrix with the present tangents
-    void factor() { matrix_.factor(redundant_); }
+    void factor() {
+        if (!left_.empty() && !matrix_.listed()) add_left();
+        matrix_.factor(redundant_);
+    }
     // number of redundant held rows
     int redundant() const;
     int redundant(size_t link) const;
@@ -74,11 +77,15 @@ private:
         int rows_a, rows_b;
         size_t block;
         bool negative;
+        bool first;     // of those at this block
     };
     // Tangent of a law, D = V diag(root^2) V^T.
     struct Tangent {
         double vectors[most_laws * most_laws] = {}, root[most_laws] = {};
     };
+    bool idle(const Pair& pair) const { return matrix_.idle(pair.a / 2) || matrix_.idle(pair.b / 2); }
+    void add(const Pair& pair);
+    void add_left();
     double imbalance(const double* x, double tolerance);
     double largest_of_laws(size_t link, const double* x) const;
 
@@ -88,6 +95,7 @@ private:
     std::vector<Row> rows_;
     std::vector<Side> sides_;
     std::vector<Pair> pairs_;
+    std::vector<size_t> left_;     // pairs that are not in the matrix because one of their nodes was idle
     BlockCholesky matrix_;
     std::vector<char> redundant_;  // per row
     std::vector<Tangent> tangent_;  // per link
