@@ -7,6 +7,8 @@ structures).  Where the difference of two runs alone was stated, 23 % of the rot
 Kind: invariant.  Source: derived here.
 """
 
+from functools import cache
+
 import numpy as np
 import pytest
 from tests.support.multibody import error_cases
@@ -48,24 +50,29 @@ def figures(result):
     }  # fmt: skip
 
 
+@cache
+def judged(name):
+    """Of a structure: which figures err by at most what is stated, by kind, and stated over true errors."""
+    kept, over = {"rotation": [], "final": [], "energy": [], "displacement": []}, []
+    truth = figures(error_cases.solved(name, 2.5e-5, checks=False))
+    largest = max(value for (kind, _), (value, _) in truth.items() if kind == "rotation")
+    for accuracy in ACCURACIES:
+        for (kind, place), (value, stated) in figures(error_cases.solved(name, accuracy)).items():
+            true = abs(value - truth[kind, place][0])
+            kept[kind].append(true <= stated + 1e-9)
+            if kind == "rotation" and value > 0.05 * largest:
+                over.append(stated / max(true, 1e-15))
+    return kept, float(np.median(over))
+
+
 @pytest.mark.parametrize("names", [LOOKED_AT, HELD_BACK], ids=["looked at", "held back"])
 def test_nine_of_ten_errors_are_within_the_stated_ones(names, record_figure):
-    shares, overstated = {}, []
-    for name in names:
-        over = []
-        truth = figures(error_cases.solved(name, 2.5e-5, checks=False))
-        kept = {"rotation": [], "final": [], "energy": [], "displacement": []}
-        for accuracy in ACCURACIES:
-            found = figures(error_cases.solved(name, accuracy))
-            largest = max(value for (kind, _), (value, _) in truth.items() if kind == "rotation")
-            for (kind, place), (value, stated) in found.items():
-                true = abs(value - truth[kind, place][0])
-                kept[kind].append(true <= stated + 1e-9)
-                if kind == "rotation" and value > 0.05 * largest:
-                    over.append(stated / max(true, 1e-15))
-        overstated.append(np.median(over))
-        for kind, all_kept in kept.items():
-            shares.setdefault(kind, []).append(np.mean(all_kept))
-    for kind, found in shares.items():
-        record_figure(f"{kind}s within their stated errors", float(np.mean(found)), 1.0, 0.1)
+    for kind in ("rotation", "final", "energy", "displacement"):
+        shares = [np.mean(judged(name)[0][kind]) for name in names]
+        record_figure(f"{kind}s within their stated errors", float(np.mean(shares)), 1.0, 0.1)
+
+
+def test_errors_are_stated_without_excess(record_figure):
+    """Of all structures: the median of six hangs on one whose true errors vanish by chance."""
+    overstated = [judged(name)[1] for name in (*LOOKED_AT, *HELD_BACK)]
     record_figure("stated over true error of rotations, median", float(np.median(overstated)), 1.0, 9.0)
