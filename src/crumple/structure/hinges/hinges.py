@@ -96,7 +96,7 @@ def _placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
 def _joints(
     structure: StructureParts,
     own: Mapping[str, list[PlacedHinge]],
-    free: Callable[[str], tuple[bool, bool]],
+    free: Callable[[str, Axis], tuple[bool, bool]],
 ) -> Mapping[str, list[PlacedHinge]]:
     """Elastic joints by member; `own`: its hinges."""
     found: dict[str, list[PlacedHinge]] = defaultdict(list)
@@ -130,17 +130,17 @@ def shares_left_out(structure: StructureParts) -> dict[str, dict[Axis, AxisShare
 
 
 def _shares(
-    structure: StructureParts, member: str, free: Callable[[str], tuple[bool, bool]]
+    structure: StructureParts, member: str, free: Callable[[str, Axis], tuple[bool, bool]]
 ) -> tuple[dict[str, HingeShares], dict[Axis, AxisShares]]:
     """See `bar_shares`, of the bar of a member; `free`: which ends of members carry no moment."""
     bar = bar_of(structure, member)
 
-    def free_at(name: str, node: str) -> bool:
-        return free(name)[structure.members[name].nodes.index(node)]
+    def free_about(axis: Axis) -> tuple[bool, bool]:
+        first, last = (free(name, axis)[structure.members[name].nodes.index(node)] for name, node in bar.ends)
+        return first, last
 
     def share() -> tuple[dict[str, HingeShares], dict[Axis, AxisShares]]:
-        first, last = bar.ends
-        return bar_shares(structure, bar, (free_at(*first), free_at(*last)))
+        return bar_shares(structure, bar, free_about)
 
     return structure.kept.once("shares", next(iter(bar.stretches)), share)
 

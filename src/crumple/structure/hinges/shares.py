@@ -9,6 +9,7 @@ from typing import Literal, get_args
 
 from crumple.errors import InputError
 from crumple.hinge.measured.library import is_of_joint
+from crumple.numeric.arrays import Floats
 from crumple.section import Axis, half_fold_length
 from crumple.structure.hinges.corner.across import ACROSS
 from crumple.structure.hinges.corner_laws import MITRED, corner_laws, corner_name, turned_corner
@@ -18,7 +19,9 @@ from crumple.structure.hinges.flexibility import flexibility, tributary_lengths
 from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.places import HingePlace, law_of, law_spec, member_hinge_places
 from crumple.structure.hinges.runs.bars import rigid_along
+from crumple.structure.hinges.runs.ends import SAME_DIRECTION
 from crumple.structure.hinges.runs.straight_runs import StraightRun
+from crumple.structure.keys.motion import FREEDOMS
 from crumple.structure.parts import StructureParts
 
 Spring = Literal["none", "given", "auto"]
@@ -77,7 +80,7 @@ class AxisShares:
 
 
 def bar_shares(
-    structure: StructureParts, bar: StraightRun, free: tuple[bool, bool]
+    structure: StructureParts, bar: StraightRun, free: Callable[[Axis], tuple[bool, bool]]
 ) -> tuple[dict[str, HingeShares], dict[Axis, AxisShares]]:
     """Shares of each hinge of a bar by name, and those about each bending axis.
 
@@ -88,11 +91,11 @@ def bar_shares(
     bar
         As of `bar_of`.
     free
-        Whether the bar's first and second end carry no moment.
+        Whether the bar's first and second end carry no moment about an axis.
     """
     places, length, rigid = places_along(structure, bar), bar.length, rigid_along(structure, bar)
     name = next(iter(bar.stretches))
-    about = {axis: _about(structure, bar, places, axis, (length, rigid, free)) for axis in AXES}
+    about = {axis: _about(structure, bar, places, axis, (length, rigid, free(axis))) for axis in AXES}
     found = {axis: shares for axis, shares in about.items() if shares is not None}
 
     def along(takes_part: Callable[[HingePlace], bool]) -> dict[str, float]:
@@ -307,10 +310,10 @@ def _spring(structure: StructureParts, place: HingePlace) -> Spring:
     return "given" if own else "auto"
 
 
-def moment_free_ends(structure: StructureParts) -> Callable[[str], tuple[bool, bool]]:
-    """For a member: whether its first and second end carry no bending moment.
+def moment_free_ends(structure: StructureParts) -> Callable[[str, Axis], tuple[bool, bool]]:
+    """For a member and an axis: whether its first and second end carry no bending moment about it.
 
-    An end is free where no other member is joined rigidly, no support holds or drives a rotation, and no
+    An end is free where no other member is joined rigidly, no support holds or drives the rotation, and no
     rotary inertia and no moment acts, or where a spherical joint is.  A member that spot welds join to
     another counts as free at both ends: its end moments are not known, and its parts cannot move relative to
     each other.
@@ -319,12 +322,7 @@ def moment_free_ends(structure: StructureParts) -> Callable[[str], tuple[bool, b
     joined = Counter(
         node for name, spec in structure.members.items() for node in spec.nodes if (name, node) not in freed
     )
-    bent = {
-        support.node
-        for support in structure.supports.values()
-        if any(freedom[0] == "r" for freedom in (*support.held, *support.driven))
-    }
-    bent |= {mass.node for mass in structure.masses.values() if any(mass.rotary_inertia) or any(mass.offset)}
+    bent = {mass.node for mass in structure.masses.values() if any(mass.rotary_inertia) or any(mass.offset)}
     bent |= {
         load.node for load in structure.loads if any(getattr(load.moment, axis) is not None for axis in "xyz")
     }
@@ -333,9 +331,19 @@ def moment_free_ends(structure: StructureParts) -> Callable[[str], tuple[bool, b
         name for welds in structure.spot_welds.values() if len(welds.members) == 2 for name in welds.members
     }
 
-    def free(member: str) -> tuple[bool, bool]:
+    def turns(node: str, direction: Floats) -> bool:
+        return not any(
+            freedom in FREEDOMS[3:] and abs(float(direction[FREEDOMS.index(freedom) - 3])) > SAME_DIRECTION
+            for _, support in structure.supports_at.get(node, ())
+            for freedom in (*support.held, *support.driven)
+        )
+
+    def free(member: str, axis: Axis) -> tuple[bool, bool]:
+        direction = structure.frame_of(member).axis(axis)
         first, second = (
-            member in welded or (member, node) in freed or (joined[node] == 1 and node not in bent)
+            member in welded
+            or (member, node) in freed
+            or (joined[node] == 1 and node not in bent and turns(node, direction))
             for node in structure.members[member].nodes
         )
         return first, second

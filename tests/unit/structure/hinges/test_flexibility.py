@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from crumple.structure.hinges.flexibility import (
+    FEW,
     LEAST,
     MOST_JOINTS,
     PLACES,
@@ -101,6 +102,30 @@ def test_a_hinge_near_the_free_end_gets_joints():
 def test_both_ends_free():
     assert flexibility((0.4,), 1.0, (), (True, True)).lengths == pytest.approx([1.0 / 3.0])
     assert flexibility((0.2, 0.7), 1.0, (), (True, True)).lengths == pytest.approx([0.45, 0.55])
+
+
+@pytest.mark.parametrize("number", [3, 5, 11])
+def test_half_waves_between_free_ends_are_exact(number):
+    """Borders of segments, and their middles: half of all points' lengths times the largest moment squared."""
+    for places in (np.arange(1, number) / number, (np.arange(number) + 0.5) / number):
+        if len(places) < FEW:
+            continue
+        (stations, lengths), joints = points(places, free=(True, True))
+        assert joints == 0
+        assert lengths @ np.sin(np.pi * stations) ** 2 == pytest.approx(0.5)
+        np.testing.assert_allclose(lengths, lengths[0])
+
+
+@pytest.mark.parametrize("first", [0.0, 0.05, 0.1])
+def test_beside_one_free_end_lengths_are_even_and_exact_for_the_moment_that_vanishes_there(first):
+    (stations, lengths), joints = points([first, *np.arange(1, 6) / 6.0], free=(False, True))
+    assert joints == 0
+    assert lengths @ (1.0 - stations) ** 2 == pytest.approx(1.0 / 3.0)
+    # exact for all linear moments, the last had 0.30
+    assert lengths[2:].max() < 1.05 * lengths[2:].min()
+    (turned, mirrored), _ = points(np.sort(1.0 - stations), free=(True, False))
+    np.testing.assert_allclose(mirrored[::-1], lengths)
+    np.testing.assert_allclose(turned[::-1], 1.0 - stations)
 
 
 def test_tributary_lengths_leave_out_what_is_rigid_and_are_never_nothing():
