@@ -106,7 +106,7 @@ def test_both_ends_free():
 
 @pytest.mark.parametrize("number", [3, 5, 11])
 def test_half_waves_between_free_ends_are_exact(number):
-    """Borders of segments, and their middles: half of all points' lengths times the largest moment squared."""
+    """Borders of segments, and their middles: half of all lengths times the largest moment squared."""
     for places in (np.arange(1, number) / number, (np.arange(number) + 0.5) / number):
         if len(places) < FEW:
             continue
