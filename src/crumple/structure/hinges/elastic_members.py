@@ -100,6 +100,8 @@ def _elastic(spec: Member, segments: int) -> Member:
 
 def segments_of(structure: StructureParts, bar: StraightRun) -> int:
     """Number of segments of an elastic bar, the largest that its members ask for; 0 of a rigid one."""
+    if not bar.between:
+        return structure.members[bar.first].elastic or 0
     return max(structure.members[name].elastic or 0 for name in bar.stretches)
 
 
@@ -122,7 +124,7 @@ def joint_stations(
         Distances from its start of its hinges about that axis, and of those about other axes alone [m].
     """
     number = segments_of(structure, bar)
-    if number == 0 or (planar(structure) and axis != bending_axis(structure, next(iter(bar.stretches)))):
+    if number == 0 or (planar(structure) and axis != bending_axis(structure, bar.first)):
         return ()
     segment = bar.length / number
     rigid = rigid_along(structure, bar)
@@ -146,7 +148,7 @@ def shear_stretch(structure: StructureParts, bar: StraightRun, axis: Axis) -> fl
         return 0.0
     from crumple.section.wall_section import walls_of  # noqa: PLC0415  (rigid members need no walls)
 
-    member = next(iter(bar.stretches))
+    member = bar.first
     section, material = structure.section_of(member), structure.material_of(member)
     depth = float(np.ptp(section.outer_outline() @ _across(axis)))
     if bar.length >= (1.0 - ROUNDING) * SLENDER * depth:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Literal
 
@@ -36,6 +36,7 @@ from crumple.structure.hinges.places import (
     member_hinge_places,
 )
 from crumple.structure.hinges.runs.bars import bar_of
+from crumple.structure.hinges.runs.straight_runs import StraightRun
 from crumple.structure.hinges.shares import (
     AxisShares,
     HingeShares,
@@ -74,13 +75,16 @@ def placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
 def _placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
     problems: list[Problem] = []
     own: dict[str, list[PlacedHinge]] = {}
+    bars: dict[str, tuple[StraightRun, dict[Axis, AxisShares]]] = {}
     free = moment_free_ends(structure)
     for member, spec in structure.members.items():
         places = member_hinge_places(structure, member)
         own[member] = []
         if not places and not spec.elastic:
             continue
-        shares, _ = _shares(structure, member, free)
+        bar = bar_of(structure, member)
+        shares, about = _shares(structure, bar, free)
+        bars[bar.first] = bar, about
         for place in places:
             go_on()
             try:
@@ -89,29 +93,13 @@ def _placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
                 problems += [replace(p, where=p.where or f"members.{member}") for p in error.problems]
     if problems:
         raise InputError(problems)
-    joints = _joints(structure, own, free)
-    return tuple(hinge for member, hinges in own.items() for hinge in (*hinges, *joints[member]))
-
-
-def _joints(
-    structure: StructureParts,
-    own: Mapping[str, list[PlacedHinge]],
-    free: Callable[[str, Axis], tuple[bool, bool]],
-) -> Mapping[str, list[PlacedHinge]]:
-    """Elastic joints by member; `own`: its hinges."""
-    found: dict[str, list[PlacedHinge]] = defaultdict(list)
-    seen: set[str] = set()
-    for member, spec in structure.members.items():
+    joints: dict[str, list[PlacedHinge]] = defaultdict(list)
+    for bar, about in bars.values():
         go_on()
-        if member in seen:
-            continue
-        bar = bar_of(structure, member)
-        seen |= bar.stretches.keys()
         hinges = [hinge for name in bar.stretches for hinge in own[name]]
-        if hinges or spec.elastic:
-            for joint in elastic_joints(structure, bar, hinges, _shares(structure, member, free)[1]):
-                found[joint.member].append(joint)
-    return found
+        for joint in elastic_joints(structure, bar, hinges, about):
+            joints[joint.member].append(joint)
+    return tuple(hinge for member, hinges in own.items() for hinge in (*hinges, *joints[member]))
 
 
 def plastic_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
@@ -124,25 +112,24 @@ def shares_left_out(structure: StructureParts) -> dict[str, dict[Axis, AxisShare
     free = moment_free_ends(structure)
     found: dict[str, dict[Axis, AxisShares]] = {}
     for member in structure.members:
-        about = _shares(structure, member, free)[1] if member_hinge_places(structure, member) else {}
+        about = {}
+        if member_hinge_places(structure, member):
+            about = _shares(structure, bar_of(structure, member), free)[1]
         found[member] = {axis: shares for axis, shares in about.items() if shares.rigid}
     return found
 
 
 def _shares(
-    structure: StructureParts, member: str, free: Callable[[str, Axis], tuple[bool, bool]]
+    structure: StructureParts, bar: StraightRun, free: Callable[[str, Axis], tuple[bool, bool]]
 ) -> tuple[dict[str, HingeShares], dict[Axis, AxisShares]]:
-    """See `bar_shares`, of the bar of a member; `free`: which ends of members carry no moment."""
-    bar = bar_of(structure, member)
+    """See `bar_shares`; `free`: which ends of members carry no moment."""
 
     def free_about(axis: Axis) -> tuple[bool, bool]:
-        first, last = (free(name, axis)[structure.members[name].nodes.index(node)] for name, node in bar.ends)
-        return first, last
+        (one, start), (other, end) = bar.ends
+        first = free(one, axis)[structure.members[one].nodes.index(start)]
+        return first, free(other, axis)[structure.members[other].nodes.index(end)]
 
-    def share() -> tuple[dict[str, HingeShares], dict[Axis, AxisShares]]:
-        return bar_shares(structure, bar, free_about)
-
-    return structure.kept.once("shares", next(iter(bar.stretches)), share)
+    return structure.kept.once("shares", bar.first, lambda: bar_shares(structure, bar, free_about))
 
 
 def _bending(

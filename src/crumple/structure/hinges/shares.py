@@ -9,7 +9,6 @@ from typing import Literal, get_args
 
 from crumple.errors import InputError
 from crumple.hinge.measured.library import is_of_joint
-from crumple.numeric.arrays import Floats
 from crumple.section import Axis, half_fold_length
 from crumple.structure.hinges.corner.across import ACROSS
 from crumple.structure.hinges.corner_laws import MITRED, corner_laws, corner_name, turned_corner
@@ -94,8 +93,8 @@ def bar_shares(
         Whether the bar's first and second end carry no moment about an axis.
     """
     places, length, rigid = places_along(structure, bar), bar.length, rigid_along(structure, bar)
-    name = next(iter(bar.stretches))
-    about = {axis: _about(structure, bar, places, axis, (length, rigid, free(axis))) for axis in AXES}
+    name = bar.first
+    about = {axis: _about(structure, bar, places, axis, (rigid, free)) for axis in AXES}
     found = {axis: shares for axis, shares in about.items() if shares is not None}
 
     def along(takes_part: Callable[[HingePlace], bool]) -> dict[str, float]:
@@ -143,8 +142,8 @@ def bar_shares(
 
 def places_along(structure: StructureParts, bar: StraightRun) -> list[HingePlace]:
     """Hinges of a bar, along it; their stations count from its start."""
-    if len(bar.stretches) == 1:
-        return member_hinge_places(structure, *bar.stretches)
+    if not bar.between:
+        return member_hinge_places(structure, bar.first)
     found = [
         replace(place, station=stretch.along(place.station))
         for name, stretch in bar.stretches.items()
@@ -204,7 +203,7 @@ def joint_twists(structure: StructureParts, bar: StraightRun, joints: Sequence[f
     if not own and not _between_corners(structure, bar):
         return {}
     length, rigid = bar.length, rigid_along(structure, bar)
-    if structure.material_of(next(iter(bar.stretches))).hardening is not None:
+    if structure.material_of(bar.first).hardening is not None:
         points = sorted([*own, *joints])
         lengths = dict(zip(points, tributary_lengths(points, length, rigid), strict=True))
         return {at: lengths[at] for at in joints}
@@ -257,16 +256,19 @@ def _about(
     bar: StraightRun,
     places: Sequence[HingePlace],
     axis: Axis,
-    ends: tuple[float, tuple[tuple[float, float], ...], tuple[bool, bool]],
+    ends: tuple[tuple[tuple[float, float], ...], Callable[[Axis], tuple[bool, bool]]],
 ) -> AxisShares | None:
     """Shares about an axis: of elastic hinges and the bar's joints, or of all where none is elastic."""
     # the spring of a corner adds to the flexibility of the members
-    bends = [(place, axis in axes_of(place)) for place in places]
-    if not segments_of(structure, bar) and not any(about for _, about in bends):
+    about = [place for place in places if axis in axes_of(place)]
+    bent = segments_of(structure, bar) > 0
+    if not bent and not about:
         return None
-    own = [place for place, about in bends if about and not _of_corner(structure, place, axis)]
-    others = tuple([place.station for place, about in bends if not about])
-    between = joint_stations(structure, bar, axis, tuple([place.station for place in own]), others)
+    own = [place for place in about if not _of_corner(structure, place, axis)]
+    between: tuple[float, ...] = ()
+    if bent:
+        others = tuple([place.station for place in places if axis not in axes_of(place)])
+        between = joint_stations(structure, bar, axis, tuple([place.station for place in own]), others)
     if not own and not between:
         return None
     seen: dict[int, Spring] = {}
@@ -279,7 +281,9 @@ def _about(
     elastic = [place for place, spring in zip(own, springs, strict=True) if spring != "none"]
     points = elastic or own
     together = sorted([*((place.station, place.name) for place in points), *((at, "") for at in between)])
-    shared = flexibility(tuple(at for at, _ in together), *ends, shear_stretch(structure, bar, axis))
+    rigid, free = ends
+    shear = shear_stretch(structure, bar, axis) if bent else 0.0
+    shared = flexibility(tuple([at for at, _ in together]), bar.length, rigid, free(axis), shear)
     found = list(zip(together, shared.lengths, strict=True))
     lengths = {name: length for (_, name), length in found if name}
     joints = (*((at, length) for (at, name), length in found if not name), *shared.joints)
@@ -331,19 +335,20 @@ def moment_free_ends(structure: StructureParts) -> Callable[[str, Axis], tuple[b
         name for welds in structure.spot_welds.values() if len(welds.members) == 2 for name in welds.members
     }
 
-    def turns(node: str, direction: Floats) -> bool:
-        return not any(
-            freedom in FREEDOMS[3:] and abs(float(direction[FREEDOMS.index(freedom) - 3])) > SAME_DIRECTION
-            for _, support in structure.supports_at.get(node, ())
-            for freedom in (*support.held, *support.driven)
-        )
+    def turns(node: str, member: str, axis: Axis) -> bool:
+        supports = structure.supports_at.get(node)
+        if not supports:
+            return True
+        about = structure.frame_of(member).axis(axis)
+        held = {freedom for _, support in supports for freedom in (*support.held, *support.driven)}
+        turned = [i for i, freedom in enumerate(FREEDOMS[3:]) if freedom in held]
+        return not any(abs(float(about[i])) > SAME_DIRECTION for i in turned)
 
     def free(member: str, axis: Axis) -> tuple[bool, bool]:
-        direction = structure.frame_of(member).axis(axis)
         first, second = (
             member in welded
             or (member, node) in freed
-            or (joined[node] == 1 and node not in bent and turns(node, direction))
+            or (joined[node] == 1 and node not in bent and turns(node, member, axis))
             for node in structure.members[member].nodes
         )
         return first, second

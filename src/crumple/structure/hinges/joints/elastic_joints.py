@@ -46,6 +46,8 @@ def elastic_joints(
         Hinges of its members, and how these share its bending.
     """
     lengths = joint_lengths(about, SAME_PLACE * bar.length)
+    if not lengths:
+        return []
     twisted = joint_twists(structure, bar, [along for along, _ in lengths])
     by_member: dict[str, list[tuple[float, dict[Axis, float]]]] = defaultdict(list)
     for along, by_axis in lengths:
@@ -96,7 +98,7 @@ class _Beside:
 
     @property
     def _first(self) -> str:
-        return next(iter(self.bar.stretches))
+        return self.bar.first
 
     def twist(self, along: float, length: float, bending: dict[Axis, HingeRecord]) -> HingeComponent:
         """Twist of a joint that stands for a length of the bar [m]: it yields as it bends."""

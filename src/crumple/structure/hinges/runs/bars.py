@@ -27,11 +27,14 @@ def _bar(structure: StructureParts, member: str) -> StraightRun:
         run = straight_run(structure, member)
         if all(abs(float(structure.frame_of(name).y @ frame.y)) > ALIKE for name in run.stretches):
             return run
-    return StraightRun({member: Stretch(0.0, frame.length, forward=True)}, spec.nodes, {})
+    alone = Stretch(0.0, frame.length, forward=True)
+    return StraightRun({member: alone}, spec.nodes, {}, member, frame.length)
 
 
 def rigid_along(structure: StructureParts, bar: StraightRun) -> tuple[tuple[float, float], ...]:
     """Stretches of a bar that do not deform [m], increasing: rigid parts, and what lies in rigid joints."""
+    if not bar.between:
+        return unbent_parts(structure, bar.first)
     found: list[tuple[float, float]] = []
     for name, stretch in bar.stretches.items():
         for part in unbent_parts(structure, name):

