@@ -12,6 +12,7 @@ where the joint there ends, is left out: there the hinge stands for the fold.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 
 import numpy as np
@@ -25,13 +26,17 @@ from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import turned
 from crumple.result import Caution
 from crumple.section import Axis, half_fold_length
-from crumple.structure import Structure
+from crumple.structure import Structure, placed_hinges
 from crumple.structure.hinges.asked import automatic_of
+from crumple.structure.hinges.elastic_members import folds_from
 from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.spatial_hinges import interaction_fit_of
+from crumple.units import format_quantity
 
 USED = 1.1
 """Use of a section's capacity above which a caution is given: the fit of the interaction is up to 6 % off."""
+LEAST_TURN = math.radians(1.0)
+"""Rotation of a joint below which no fold of any section softens: its law is not asked."""
 BEND = ", or let members bend with analysis.multibody.members: elastic"
 """What else helps rigid bars that carry too much."""
 AXES: tuple[Axis, ...] = ("y", "z")
@@ -156,3 +161,31 @@ def _is_loaded(structure: Structure, node: str) -> bool:
     """Whether anything but members acts at a node: a support, a joint, a mass, a load."""
     others = (structure.supports_at, structure.joints_at, structure.masses_at)
     return any(at.get(node) for at in others) or any(load.node == node for load in structure.loads)
+
+
+def folds_between(structure: Structure, solved: Solved) -> Iterator[Caution]:
+    """Members that yield between their hinges by more than a fold takes before it softens.
+
+    The rotation is at least the energy of a joint over its largest moment.
+    """
+    joints = {(one.member, one.station): one for one in placed_hinges(structure) if not one.plastic}
+    turned: dict[str, tuple[float, float]] = {}
+    for (member, station), energy in solved.spread.items():
+        joint = joints.get((member, station))
+        if joint is not None and energy.size:
+            most = float(energy[-1]) / float(joint.record.positive.moment.max())
+            turned[member] = max((most, station), turned.get(member, (0.0, 0.0)))
+    for member, (most, station) in turned.items():
+        if most < LEAST_TURN:
+            continue
+        metal = structure.section_of(member), structure.material_of(member)
+        limit = min(folds_from(*metal, axis) for axis in AXES)
+        if most > limit:
+            where = format_quantity(station, "m", 3)
+            text = (
+                f"Member {member} yields by {math.degrees(most):.3g} deg at {where}, between its hinges, "
+                "where the model does not let it fold: a fold carries less from "
+                f"{math.degrees(limit):.3g} deg on. "
+                "Add hinges (hinges: {spacing: ...})."
+            )
+            yield Caution("fold_between_hinges", most, limit, "rad", f"member {member}", text)

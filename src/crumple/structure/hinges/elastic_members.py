@@ -45,6 +45,8 @@ DAMPING = 1e-5
 f times it of critical damping, 1 % at 318 Hz and 100 % at 32 kHz."""
 LAW_TURNS = np.radians(np.arange(0.0, 41.0))
 """Rotations at which the largest moment of a fold is sought [rad]: walls that harden reach it later."""
+LOST = 0.05
+"""Share of its largest moment that a fold loses before walls that keep theirs count as too strong."""
 SLENDER = 10.0
 """Length over depth from which the deflection by shear is neglected."""
 ROUNDING = 1e-9
@@ -196,10 +198,27 @@ def _largest_moment(section: Section, material: Material, axis: Axis) -> float:
     Folds in different places have different laws; walls that yielded at less than a fold beside them takes
     would do so without end in its place.
     """
+    return max(float(moment.max()) for moment in _fold_moments(section, material, axis))
+
+
+def folds_from(section: Section, material: Material, axis: Axis) -> float:
+    """Rotation [rad] from which a fold anywhere in a member has lost `LOST` of its largest moment.
+
+    Infinite for sections whose walls do not fold.
+    """
+    found = 0.0
+    for moment in _fold_moments(section, material, axis):
+        peak = int(np.argmax(moment))
+        below = np.flatnonzero(moment[peak:] < (1.0 - LOST) * moment[peak])
+        found = max(found, float(LAW_TURNS[peak + below[0]]) if below.size else np.inf)
+    return found
+
+
+def _fold_moments(section: Section, material: Material, axis: Axis) -> list[Floats]:
+    """Moments [N m] at `LAW_TURNS` of the laws that folds in different places of a member have."""
     folds: tuple[Fold | None, ...] = ("free", "clamped", None)
     kinds = {automatic_type(section, material, axis, fold, build=formula) for fold in folds}
-    laws = [formula(kind, section, material, axis) for kind in kinds]
-    return max(float(law.moment_capacity(LAW_TURNS).max()) for law in laws)
+    return [formula(kind, section, material, axis).moment_capacity(LAW_TURNS) for kind in kinds]
 
 
 @remembered(KEPT)
