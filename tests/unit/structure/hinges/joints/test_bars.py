@@ -4,8 +4,11 @@ import numpy as np
 import pytest
 from tests.support.multibody.frames import CLAMP, member, structure
 
+from crumple.errors import Status
+from crumple.multibody import Run, solve_multibody
 from crumple.structure import placed_hinges
 from crumple.structure.hinges.runs.bars import bar_of
+from crumple.structure.hinges.shares import moment_free_ends
 
 NODES = {"a": (0.0, 0.0, 0.0), "b": (0.4, 0.0, 0.0), "c": (1.0, 0.0, 0.0)}
 HELD = CLAMP | {"far": {"node": "c", "fix": "all"}}
@@ -66,3 +69,24 @@ def test_members_with_other_axes_bend_alone():
     rigid = {ends: member(*ends) | {"hinges": ()} for ends in ("ab", "bc")}
     whole = structure(NODES, rigid, supports=HELD, hinges="auto")
     assert list(bar_of(whole, "bc").stretches) == ["bc"]
+
+
+def test_an_end_is_free_about_the_axes_about_which_nothing_holds_it():
+    pinned = {"l": {"node": "a", "fix": ("x", "y", "z", "rx", "rz")}, "r": {"node": "c", "fix": ("y", "z")}}
+    free = moment_free_ends(line("ab bc", supports=pinned))
+    assert {axis: free("ab", axis) for axis in ("y", "z")} == {"y": (True, False), "z": (False, False)}
+    assert {axis: free("bc", axis) for axis in ("y", "z")} == {"y": (False, True), "z": (False, True)}
+
+
+def test_a_joint_may_lie_at_a_node_within_a_bar():
+    """A pole strikes within one fold of the node, which then has no candidate, and not beside the joint."""
+    pole = {"type": "cylinder", "point": (0.27, 0.0, 0.0635), "axis": (0.0, 1.0, 0.0), "radius": 0.05}
+    moves = {"mass": 5.0, "velocity": (0.0, 0.0, -1.0), "guide": (0.0, 0.0, -1.0)}
+    nodes = {"a": (0.0, 0.0, 0.0), "b": (0.25, 0.0, 0.0), "c": (0.5, 0.0, 0.0)}
+    members = {ends: member(*ends) | {"hinges": (), "elastic": 12} for ends in ("ab", "bc")}
+    whole = structure(nodes, members, supports=HELD, hinges="auto", obstacles={"pole": pole | moves})
+    hinges = [one for one in placed_hinges(whole) if one.plastic]
+    assert [round(float(one.position[0]), 2) for one in hinges][1:-1] == [0.27]
+    (at_node,) = [one for one in placed_hinges(whole) if abs(one.position[0] - 0.25) < 1e-9]
+    assert not at_node.plastic
+    assert solve_multibody(whole, Run(0.002, 0.0005)).status is Status.COMPLETE
