@@ -23,7 +23,7 @@ from crumple.multibody.checks.crushing import buckling_cautions, closed_together
 from crumple.multibody.checks.folded_over import folded_over
 from crumple.multibody.checks.names import named
 from crumple.multibody.checks.overloaded import folds_between, overloaded_sections
-from crumple.multibody.checks.struck import folds_under_poles, pressed_beyond, struck_cautions
+from crumple.multibody.checks.struck import pressed_beyond, struck_cautions
 from crumple.multibody.checks.torque import torques_without_twist
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import turned
@@ -112,7 +112,6 @@ def physics_cautions(structure: Structure, solved: Solved, *, slow: Collection[s
         *crushed_walls(structure, solved),
         *crumpled_ends(structure, solved),
         *deep_dents(solved),
-        *folds_under_poles(solved),
     )
     every = format_quantity(float(np.diff(solved.time).max()), "s", 3)
     judged = f" Judged at the outputs, every {every}."

@@ -9,13 +9,11 @@ Members without any hinge are meant to keep their shape.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Iterator, Mapping
 
 import numpy as np
 
 from crumple._core.outcome import Outcome
-from crumple.hinge.bending.pressed import PressedLaw
 from crumple.multibody.answer.solved import Solved
 from crumple.multibody.checks.names import named
 from crumple.numeric.arrays import Floats
@@ -26,9 +24,6 @@ from crumple.structure.hinges.asked import automatic_of, folds_at_ends
 from crumple.structure.hinges.spatial_hinges import interaction_of
 from crumple.structure.struck_places import struck_places
 from crumple.units import format_quantity
-
-COMPARED = math.radians(15.0)
-"""Rotation up to which folds under poles were compared with shells, and were within 35 % [rad]."""
 
 
 def struck_cautions(structure: Structure, solved: Solved | None = None) -> Iterator[Caution]:
@@ -169,17 +164,3 @@ def _touched(structure: Structure, solved: Solved | None) -> set[str]:
         for name in structure.obstacles
         if any(force[f"obstacle.{name}.force.{axis}"].any() for axis in "xyz")
     }
-
-
-def folds_under_poles(solved: Solved) -> Iterator[Caution]:
-    """Folds into which a pole sinks that turned further than they were compared with shells."""
-    for history in solved.hinges:
-        for _, law, bent in history.bent_by_law():
-            if isinstance(law, PressedLaw) and bent > COMPARED:
-                name = history.hinge.name
-                text = (
-                    f"Hinge {name} turned by {math.degrees(bent):.3g} deg under a pole: its law was compared "
-                    f"with shells up to {math.degrees(COMPARED):.3g} deg. Folds that turned further did so "
-                    "by 25 % less to 40 % more than in shells. Solve with shells."
-                )
-                yield Caution("deep_fold", bent, COMPARED, "rad", f"hinge {name}", text)
