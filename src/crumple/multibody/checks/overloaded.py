@@ -173,7 +173,9 @@ def folds_between(structure: Structure, solved: Solved) -> Iterator[Caution]:
     for (member, station), energy in solved.spread.items():
         joint = joints.get((member, station))
         if joint is not None and energy.size:
-            most = float(energy[-1]) / float(joint.record.positive.moment.max())
+            parts = () if joint.spatial is None else joint.spatial.components
+            records = (joint.record, *(part.record for part in parts))
+            most = float(energy[-1]) / max(float(record.positive.moment.max()) for record in records)
             turned[member] = max((most, station), turned.get(member, (0.0, 0.0)))
     for member, (most, station) in turned.items():
         if most < LEAST_TURN:

@@ -20,6 +20,7 @@ import numpy as np
 from crumple.numeric.arrays import Floats
 from crumple.structure.geometry import NARROWEST
 from crumple.structure.hinges.corners import corners, leaving
+from crumple.structure.keys.member import united
 from crumple.structure.keys.obstacles import Obstacle
 from crumple.structure.parts import StructureParts
 from crumple.structure.struck_places import LEAST, PLACES, axis_gaps
@@ -73,14 +74,7 @@ def unbent_parts(structure: StructureParts, member: str) -> tuple[tuple[float, f
     if not spec.elastic:
         return rigid
     first, last = (joint_reach(structure, member, node) for node in spec.nodes)
-    ends = [(0.0, first), (length - last, length)]
-    merged: list[tuple[float, float]] = []
-    for a, b in sorted((a, b) for a, b in (*rigid, *ends) if a < b):
-        if merged and a <= merged[-1][1]:
-            merged[-1] = (merged[-1][0], max(b, merged[-1][1]))
-        else:
-            merged.append((a, b))
-    return tuple(merged)
+    return united((a, b) for a, b in (*rigid, (0.0, first), (length - last, length)) if a < b)
 
 
 def strikes_joint(structure: StructureParts) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from numbers import Integral
 from typing import Annotated, Any, Literal
 
@@ -237,6 +237,17 @@ Elastic = Annotated[
 """Number of segments of an elastic member; 0: rigid bars."""
 
 
+def united(stretches: Iterable[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
+    """Stretches of a line by increasing start, those that overlap as one."""
+    merged: list[tuple[float, float]] = []
+    for a, b in sorted(stretches):
+        if merged and a <= merged[-1][1]:
+            merged[-1] = (merged[-1][0], max(b, merged[-1][1]))
+        else:
+            merged.append((a, b))
+    return tuple(merged)
+
+
 class Member(Spec):
     """Straight bar of one section and one material between two nodes.
 
@@ -269,13 +280,7 @@ class Member(Spec):
         """Stretches that do not deform [m], of a member of a length [m]; those that overlap as one."""
         if isinstance(self.rigid, bool):
             return ((0.0, length),) if self.rigid else ()
-        merged: list[tuple[float, float]] = []
-        for a, b in sorted((part.start, part.end) for part in self.rigid):
-            if merged and a <= merged[-1][1]:
-                merged[-1] = (merged[-1][0], max(b, merged[-1][1]))
-            else:
-                merged.append((a, b))
-        return tuple(merged)
+        return united((part.start, part.end) for part in self.rigid)
 
     @property
     def given_hinges(self) -> tuple[Hinge, ...]:

@@ -22,7 +22,8 @@ class MultibodySettings(Spec):
     bend if automatic hinges are asked for anywhere, in motions of up to 0.5 s, quasi-static stages not
     counted."""
     segments: Annotated[int, Field(ge=2, le=MOST_SEGMENTS)] = SEGMENTS
-    """Segments of each elastic member; a member that states its own keeps them."""
+    """Segments of each elastic member, or of a straight run of them together; a member that states its own
+    keeps them, and of a run the largest number counts."""
     resolved_frequency: PositiveFrequency = 500.0
     """Vibration of elastic hinges and members above it does not shorten the steps; it keeps its energy, but
     not its phase."""

@@ -96,13 +96,9 @@ class _Beside:
     bar: StraightRun
     own: list[PlacedHinge]
 
-    @property
-    def _first(self) -> str:
-        return self.bar.first
-
     def twist(self, along: float, length: float, bending: dict[Axis, HingeRecord]) -> HingeComponent:
         """Twist of a joint that stands for a length of the bar [m]: it yields as it bends."""
-        metal = self.structure.section_of(self._first), self.structure.material_of(self._first)
+        metal = self.structure.section_of(self.bar.first), self.structure.material_of(self.bar.first)
         firm = any(self._beyond_a_fold(axis, along) for axis in bending)
         first = next(iter(bending.values()))
         return twist_component(first, metal, length, firm=FIRM if firm else 1.0)
@@ -114,14 +110,16 @@ class _Beside:
         fold of all that lies beyond it. Walls that yielded there without folding would carry its largest
         moment whatever the rotation.
         """
-        elastic = self.structure.members[self._first].elastic
+        elastic = self.structure.members[self.bar.first].elastic
         if elastic and not self._beyond_a_fold(axis, along):
-            return yielding_record(self.structure, self._first, axis, length)
+            return yielding_record(self.structure, self.bar.first, axis, length)
         strongest = max(
             (float(curve.moment.max()) for h in self.own for curve in (h.record.positive, h.record.negative)),
-            default=float(yielding_record(self.structure, self._first, axis, length).positive.moment.max()),
+            default=float(
+                yielding_record(self.structure, self.bar.first, axis, length).positive.moment.max()
+            ),
         )
-        stiffness = self.structure.flexural_rigidity(self._first, axis) / length
+        stiffness = self.structure.flexural_rigidity(self.bar.first, axis) / length
         law = ConstantLaw(FIRM * strongest)
         return hinge.record_of(law, form=Form.ELASTIC_PLASTIC, elastic_stiffness=stiffness)
 
@@ -146,7 +144,7 @@ class _Beside:
         if not folds or min(folds) <= along <= max(folds):
             return False
         nearest = min(folds) if along < min(folds) else max(folds)
-        fold = 2.0 * half_fold_length(self.structure.section_of(self._first), axis)
+        fold = 2.0 * half_fold_length(self.structure.section_of(self.bar.first), axis)
         return abs(along - nearest) <= fold
 
     def _folds_at_corners(self, axis: Axis) -> list[float]:
