@@ -112,8 +112,7 @@ def test_a_brace_buckles_and_yields_with_members_that_bend(record_figure):
     stiff = 4.0 * post / 1.0 * clear / bending
     root = brentq(lambda u: math.sin(u) * (1.0 + u**2 / stiff) - u * math.cos(u), 3.5, 4.5)
     elastic = (root / clear) ** 2 * bending / pinned
-    # a chain of six bars buckles 6 % below (24: 2 %), and the yield of its walls takes 1 %
+    # a chain of six bars whose walls yield is 8 % below (12: 4 %, 24: 2.5 %)
     name = "largest force on a brace over Euler's load between pinned ends"
     record_figure(name, along / pinned, elastic, 0.09, relative=True)
-    # it kinks at the largest moment of its shape, not in the middle
-    assert result["hinge.brace-1.rotation"][-1] == pytest.approx(-0.5, abs=0.05)
+    assert result["hinge.brace-1.rotation"][-1] == pytest.approx(-0.47, abs=0.05)

@@ -26,9 +26,6 @@ ASIDE = 0.001
 """Distance of a hinge from the place where an obstacle with friction strikes, over half a fold length: just
 there both pieces would touch it at one point, which leaves the friction of each undetermined and takes three
 times as long; a hundred times as far, one of them takes most of it and pushes the member aside."""
-KINK = 0.35
-"""Place of the largest moment of a strut that buckles, pinned at one end and clamped at the other, from its
-pinned end over its length: pi/2 over the first root of tan x = x."""
 
 
 @dataclass(frozen=True)
@@ -125,8 +122,6 @@ def _candidates(
     pressed_free = not first_held and not last_held and stopped(structure)
     number = max(2, number) if pressed_free and structure.members[names[0]].elastic else number
     between = np.linspace(first, last, number + 1)[1:-1].tolist()
-    if number == 2 and first_held != last_held and not braced(structure).isdisjoint(run.stretches):
-        between = [first + (1.0 - KINK if first_held else KINK) * (last - first)]
     if first_held:
         yield replace(_candidate(run, run.nodes[0], first), fold=_beside(structure, run.nodes[0]))
     if last_held:

@@ -90,3 +90,13 @@ def test_a_joint_may_lie_at_a_node_within_a_bar():
     (at_node,) = [one for one in placed_hinges(whole) if abs(one.position[0] - 0.25) < 1e-9]
     assert not at_node.plastic
     assert solve_multibody(whole, Run(0.002, 0.0005)).status is Status.COMPLETE
+
+
+def test_a_hinge_beside_a_rough_pole_lies_towards_the_nearer_end_however_the_tube_leads():
+    pole = {"type": "cylinder", "point": (0.3, 0.0, 0.0635), "axis": (0.0, 1.0, 0.0), "radius": 0.05}
+    moves = {"mass": 5.0, "velocity": (0.0, 0.0, -1.0), "guide": (0.0, 0.0, -1.0), "friction": 0.2}
+    (forth, back) = (
+        [one.position[0] for one in placed_hinges(line(order, obstacles={"pole": pole | moves}))]
+        for order in ("ac", "ca")
+    )
+    np.testing.assert_allclose(sorted(forth), sorted(back), atol=1e-9)
