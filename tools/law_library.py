@@ -217,6 +217,7 @@ def write_table(
     solved: tuple[list[Solved], list[Solved]],
     *,
     least_band: float = 0.0,
+    columns: int = KNOTS.size,
 ) -> TubeTable:
     """Write the table that is shipped, by the best of its fits.
 
@@ -234,6 +235,8 @@ def write_table(
         Points that are fitted, and points that are held out.
     least_band
         Half-width that its band has at least [-].
+    columns
+        How many of the knots it has.
     """
     fitted, held_out = solved
     fit = min(fits, key=lambda one: one.score)
@@ -243,9 +246,9 @@ def write_table(
         | {"crumple": __version__, "elements along half a fold": [COARSE, NOMINAL]},
         "coordinates": [asdict(one) for one in fit.coordinates],
         "ranges": ranges(name),
-        "rotation_deg": KNOTS.tolist(),
+        "rotation_deg": KNOTS[:columns].tolist(),
         "band": 0.0,
-        "fit": settings(fit) | fit.entries,
+        "fit": settings(fit) | fit.entries | rounded_columns(fit, columns),
         "points": [
             *(entry(one, errors) for one, errors in zip(fitted, fit.left_out, strict=True)),
             *(entry(one) for one in held_out),
@@ -256,6 +259,11 @@ def write_table(
     path = Path(__file__).parent.parent / "src/crumple/hinge/tube_library" / f"{name}.json"
     path.write_text(lines_of(written) + "\n")
     return found
+
+
+def rounded_columns(fit: Fit, columns: int) -> dict[str, Any]:
+    """First columns of the coefficients of a fit."""
+    return {"trend": rounded(fit.trend[:, :columns]), "weights": rounded(fit.weights[:, :columns])}
 
 
 def band_of(found: TubeTable, held_out: list[Solved]) -> float:
@@ -311,7 +319,7 @@ def ranges(name: str) -> dict[str, tuple[float, float]]:
     metal = {"yield_strain": YIELD_STRAIN, "hardening": (HARDENING[0], STRONGEST)}
     if name.endswith("circular_tube"):
         return {"slenderness": ROUND, **metal}
-    if name.startswith("clamped"):
+    if "clamped" in name or name.startswith("short"):
         return {"slenderness": SLENDERNESS, "ratio": RATIO, **metal}
     return {"slenderness": (THICKEST, SLENDERNESS[1]), "ratio": (DEEPEST, RATIO[1]), **metal}
 

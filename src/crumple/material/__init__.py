@@ -6,7 +6,7 @@ from crumple.material.flow_stress import (
     membrane_flow_stress,
     power_law_flow_stress,
 )
-from crumple.material.grades import Evidence, FlowRule, Grade, grade, grade_material, grades
+from crumple.material.grades import Evidence, FlowRule, Grade, grade, grade_curve, grade_material, grades
 from crumple.material.hardening.curve import HardeningCurve
 from crumple.material.hardening.perfectly_plastic import PerfectlyPlastic
 from crumple.material.hardening.swift import Swift, swift_from_tensile_test
@@ -30,6 +30,7 @@ __all__ = [
     "Voce",
     "bending_flow_stress",
     "grade",
+    "grade_curve",
     "grade_material",
     "grades",
     "mean_flow_stress",

@@ -8,12 +8,14 @@ source of its numbers; `QUOTED` marks those whose text was not seen.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from enum import Enum
 
 from crumple.errors import InputError, Problem
 from crumple.material.flow_stress import mean_flow_stress
-from crumple.material.grade_table import GRADES, RATES, Family, GradeEntry
+from crumple.material.grade_table import GRADES, NECKING, RATES, Family, GradeEntry
+from crumple.material.hardening.swift import Swift, swift_from_tensile_test
 from crumple.material.material import Material
 
 
@@ -28,6 +30,8 @@ class Evidence(Enum):
 class FlowRule(Enum):
     """Which stress folds work against."""
 
+    CURVE = "curve"
+    """Hardening curve of the grade, see `grade_curve`."""
     MEAN = "mean"
     """(yield + ultimate)/2; a rule in common use."""
     ULTIMATE = "ultimate"
@@ -45,7 +49,7 @@ class Grade:
     name
         As in the table; other spellings are accepted by `grade`.
     material
-        Metal with yield and ultimate stress; mean flow stress; no rate law.
+        Metal with yield and ultimate stress, and the hardening curve that follows from them; no rate law.
     elongation
         Least elongation after fracture [-], or None where no text with it was read.
     citation
@@ -67,7 +71,8 @@ class Grade:
     def statement(self) -> str:
         """One line for reports: kind and source of the values."""
         words = f"{self.name}: typical, not design values; {self.evidence.value} ({self.citation})"
-        return f"{words}; {self.note}" if self.note else words
+        curve = "hardening from yield, ultimate stress and a typical uniform strain"
+        return "; ".join(part for part in (words, curve, self.note) if part)
 
 
 def grades() -> dict[str, Grade]:
@@ -92,7 +97,50 @@ def grade(name: str) -> Grade:
     )
 
 
-def grade_material(name: str, *, flow: FlowRule | str = FlowRule.MEAN, rate: bool = False) -> Material:
+def grade_curve(
+    name: str, yield_stress: float | None = None, ultimate_stress: float | None = None
+) -> Swift | None:
+    """Hardening curve of a grade: through its yield stress, necking at its ultimate stress.
+
+    Parameters
+    ----------
+    name
+        As for `grade`.
+    yield_stress, ultimate_stress
+        In place of the grade's [Pa].
+
+    Returns
+    -------
+    Swift or None
+        None where the ultimate stress is hardly above the yield stress: perfectly plastic.
+
+    Raises
+    ------
+    InputError
+        If the name is unknown.
+
+    References
+    ----------
+    True strain at necking: ASME BPVC VIII-3 table KM-620 (`NECKING`), at most that of the elongation after
+    fracture, which holds the neck too.  docs/theory/hardening.md.
+    """
+    entry = GRADES[grade(name).name]
+    lowest = 1e6 * entry.yield_stress if yield_stress is None else yield_stress
+    highest = 1e6 * entry.ultimate_stress if ultimate_stress is None else ultimate_stress
+    return _curve(entry, lowest, highest)
+
+
+def _curve(entry: GradeEntry, yield_stress: float, ultimate_stress: float) -> Swift | None:
+    share, least = NECKING[entry.family]
+    strain = share * (least - yield_stress / ultimate_stress)
+    if entry.elongation is not None:
+        strain = min(strain, math.log1p(entry.elongation))
+    return (
+        swift_from_tensile_test(yield_stress, ultimate_stress, math.expm1(strain)) if strain > 0.0 else None
+    )
+
+
+def grade_material(name: str, *, flow: FlowRule | str = FlowRule.CURVE, rate: bool = False) -> Material:
     """Material of a grade.
 
     Parameters
@@ -123,21 +171,23 @@ def grade_material(name: str, *, flow: FlowRule | str = FlowRule.MEAN, rate: boo
             Problem("unknown flow rule", repr(flow), allowed, "choose one of these", "flow")
         ) from None
     found = grade(name)
-    metal = found.material
+    metal, entry = found.material, GRADES[found.name]
     stresses = {
-        FlowRule.MEAN: metal.given_flow_stress,
-        FlowRule.ULTIMATE: metal.ultimate_stress,
-        FlowRule.YIELD: None,
+        FlowRule.MEAN: mean_flow_stress(1e6 * entry.yield_stress, 1e6 * entry.ultimate_stress),
+        FlowRule.ULTIMATE: 1e6 * entry.ultimate_stress,
     }
-    at_yield, at_flow = RATES[GRADES[found.name].family] if rate else (None, None)
-    return replace(metal, given_flow_stress=stresses[rule], yield_rate=at_yield, flow_rate=at_flow)
+    curve = metal.hardening if rule is FlowRule.CURVE else None
+    at_yield, at_flow = RATES[entry.family] if rate else (None, None)
+    return replace(
+        metal, given_flow_stress=stresses.get(rule), hardening=curve, yield_rate=at_yield, flow_rate=at_flow
+    )
 
 
 def _grade(name: str, entry: GradeEntry) -> Grade:
     modulus, ratio, density = entry.elastic or _ELASTIC[entry.family]
     yielding, ultimate = 1e6 * entry.yield_stress, 1e6 * entry.ultimate_stress
-    flow = mean_flow_stress(yielding, ultimate)
-    metal = Material(name, modulus, ratio, density, yielding, ultimate, flow)
+    curve = _curve(entry, yielding, ultimate)
+    metal = Material(name, modulus, ratio, density, yielding, ultimate, hardening=curve)
     return Grade(name, metal, entry.elongation, entry.citation, Evidence[entry.evidence], entry.note)
 
 

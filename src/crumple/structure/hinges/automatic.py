@@ -23,13 +23,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from crumple.hinge.registry import Fold
 from crumple.section import Axis, half_fold_length
 from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import FOLDS, automatic_of, folds_at_ends
 from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
 from crumple.structure.hinges.joint_reach import strikes_joint
-from crumple.structure.hinges.law_choice import component_text
+from crumple.structure.hinges.law_choice import UNKNOWN, Surroundings, component_text
 from crumple.structure.hinges.lengthening.braced import braced
 from crumple.structure.hinges.lengthening.held_runs import held_runs, pushed_runs
 from crumple.structure.hinges.lengthening.stopped import stopped
@@ -186,9 +185,9 @@ def strikes_on(structure: StructureParts, member: str) -> Mapping[str, Strike]:
     return {one.name: one.strike for one in found if one.strike is not None}
 
 
-def fold_of(structure: StructureParts, member: str, hinge: str) -> Fold | None:
-    """Whether a candidate lies between the joints or clamps at the ends of a straight run, or beside one."""
-    return next((one.fold for one in _candidates(structure, member) if one.name == hinge), None)
+def near_fold(structure: StructureParts, member: str, hinge: str) -> Surroundings:
+    """What lies beside a hinge if it is a candidate: that decides its law."""
+    return next((one.near for one in _candidates(structure, member) if one.name == hinge), UNKNOWN)
 
 
 def _candidates(structure: StructureParts, member: str) -> list[Candidate]:

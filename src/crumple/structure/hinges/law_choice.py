@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from crumple.hinge.bending.estimate import automatic_type
 from crumple.hinge.law import HingeLaw
@@ -10,8 +11,9 @@ from crumple.hinge.measured.library import by_place
 from crumple.hinge.measured.place_hash import Load, place_hash
 from crumple.hinge.measured.stored import bounded
 from crumple.hinge.registry import AUTO, Fold, build_law, law_options
+from crumple.hinge.tube_library.clamped import clamped_fold_distance
 from crumple.material import Material
-from crumple.section import Axis, Section
+from crumple.section import Axis, Section, fold_distance
 from crumple.structure.keys.law import LawKeys, LawReference
 from crumple.structure.parts import StructureParts
 from crumple.structure.remembered import remembered
@@ -20,6 +22,29 @@ KEPT = 1024
 """Laws that a process keeps."""
 CLAMPED = "clamped_tube"
 """Law of folds beside clamps and joints; it goes before a stored one, whose fold lies between two pieces."""
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """What lies beside a fold.
+
+    Attributes
+    ----------
+    fold
+        Whether a joint or clamp keeps the section in shape there; None: not known.
+    span
+        Estimated distance from this joint or clamp to where the member carries no moment [m].
+    distance
+        Distance of the fold from it [m].
+    """
+
+    fold: Fold | None = None
+    span: float | None = None
+    distance: float | None = None
+
+
+UNKNOWN = Surroundings()
+"""Of a fold of which nothing is known."""
 
 
 def automatic_law(structure: StructureParts, reference: LawReference | None) -> LawKeys | None:
@@ -31,7 +56,7 @@ def automatic_law(structure: StructureParts, reference: LawReference | None) -> 
 
 
 def chosen_law(
-    structure: StructureParts, member: str, axis: Axis, asked: LawKeys, fold: Fold | None
+    structure: StructureParts, member: str, axis: Axis, asked: LawKeys, near: Surroundings
 ) -> LawKeys:
     """Law of a hinge in a straight member about an axis.
 
@@ -41,20 +66,36 @@ def chosen_law(
         The hinge; its section and material must exist.
     asked
         Law of type `auto`: its further keys, as form and bound, are those of the law that is found.
-    fold
-        Whether a joint or clamp beside it keeps the section in shape; None: not known.
+    near
+        What lies beside it.
     """
     spec = structure.members[member]
 
     def choose() -> LawKeys:
         section, material = structure.section_of(member), structure.material_of(member)
-        kind = automatic_type(section, material, axis, fold, build=formula)
+        kind = automatic_type(section, material, axis, near.fold, build=formula)
         text = stored_text(structure, place_hash(section, material, axis)) if structure.laws else None
         if text is not None and kind != CLAMPED:
             return with_type(asked, "file", text=text)
+        if kind == CLAMPED:
+            given = {"distance": near.distance, "span": near.span}
+            return with_type(asked, kind, **{key: one for key, one in given.items() if one is not None})
         return plain_law(kind) if asked == plain_law(AUTO) else with_type(asked, kind)
 
-    return structure.kept.once("chosen law", (spec.section, spec.material, axis, asked, fold), choose)
+    return structure.kept.once("chosen law", (spec.section, spec.material, axis, asked, near), choose)
+
+
+def distance_of_fold(structure: StructureParts, member: str, axis: Axis, fold: Fold | None) -> float:
+    """Distance of an automatic hinge about an axis from the joint or clamp beside it [m]."""
+    spec = structure.members[member]
+
+    def find() -> float:
+        section, material = structure.section_of(member), structure.material_of(member)
+        if fold == "clamped" and automatic_type(section, material, axis, fold, build=formula) == CLAMPED:
+            return clamped_fold_distance(section, material, axis)
+        return fold_distance(section, axis)
+
+    return structure.kept.once("fold distance", (spec.section, spec.material, axis, fold), find)
 
 
 def component_text(structure: StructureParts, member: str, load: Load) -> str | None:

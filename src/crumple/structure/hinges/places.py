@@ -9,12 +9,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from crumple.hinge import HingeLaw
-from crumple.hinge.registry import Fold
 from crumple.section import Axis, fold_distance
 from crumple.structure.bending import bending_axis
 from crumple.structure.hinges.asked import where_automatic
-from crumple.structure.hinges.automatic import fold_of, hinges_of
-from crumple.structure.hinges.law_choice import CLAMPED, automatic_law, chosen_law, made_law, plain_law
+from crumple.structure.hinges.automatic import hinges_of, near_fold
+from crumple.structure.hinges.law_choice import (
+    CLAMPED,
+    Surroundings,
+    automatic_law,
+    chosen_law,
+    made_law,
+    plain_law,
+)
 from crumple.structure.hinges.runs.ends import holds_rotation
 from crumple.structure.hinges.struck_folds import with_dent
 from crumple.structure.keys.hinge_axes import HingeAxes
@@ -130,8 +136,8 @@ def _elastic(spec: LawKeys) -> LawKeys:
 def _law_spec(structure: StructureParts, place: HingePlace) -> LawKeys:
     asked = automatic_law(structure, place.law)
     if asked is not None:
-        fold = fold_of(structure, place.member, place.name)
-        return chosen_law(structure, place.member, place.axis, asked, fold)
+        near = near_fold(structure, place.member, place.name)
+        return chosen_law(structure, place.member, place.axis, asked, near)
     assert place.law is not None
     if not isinstance(place.law, str):
         return place.law
@@ -144,8 +150,8 @@ def has_clamped_law(structure: StructureParts, place: HingePlace) -> bool:
     asked = automatic_law(structure, place.law)
     if asked is None:
         return False
-    fold = fold_of(structure, place.member, place.name)
-    return chosen_law(structure, place.member, place.axis, asked, fold).type == CLAMPED
+    near = near_fold(structure, place.member, place.name)
+    return chosen_law(structure, place.member, place.axis, asked, near).type == CLAMPED
 
 
 def law_of(structure: StructureParts, place: HingePlace) -> HingeLaw:
@@ -166,13 +172,15 @@ def law_of(structure: StructureParts, place: HingePlace) -> HingeLaw:
     return with_dent(structure, place.member, place.name, place.axis, place.law, law)
 
 
-def alike_law(structure: StructureParts, place: HingePlace) -> tuple[str, str, Axis, str, Fold | None] | None:
-    """What all hinges with the same law have in common: section, material, axis, its name, and kind of fold.
+def alike_law(
+    structure: StructureParts, place: HingePlace
+) -> tuple[str, str, Axis, str, Surroundings] | None:
+    """What all hinges with the same law have in common: section, material, axis, its name, what is beside.
 
     None without a name.
     """
     spec = structure.members[place.member]
     if not isinstance(place.law, str):
         return None
-    fold = fold_of(structure, place.member, place.name)
-    return (spec.section, spec.material, place.axis, place.law, fold)
+    near = near_fold(structure, place.member, place.name)
+    return (spec.section, spec.material, place.axis, place.law, near)

@@ -22,7 +22,7 @@ from crumple.section import AXES, Axis, CircularTube, RectangularTube, half_fold
 from crumple.structure.hinges.automatic import strikes_on
 from crumple.structure.hinges.corner_laws import corner_laws
 from crumple.structure.hinges.corners import leaving
-from crumple.structure.hinges.law_choice import automatic_law, chosen_law, made_law, plain_law
+from crumple.structure.hinges.law_choice import Surroundings, automatic_law, chosen_law, made_law, plain_law
 from crumple.structure.hinges.runs.candidates import Strike
 from crumple.structure.hinges.runs.ends import holds_rotation
 from crumple.structure.hinges.runs.straight_runs import StraightRun, straight_run
@@ -178,7 +178,7 @@ def _beside_a_joint(structure: StructureParts, member: str, about: Floats) -> fl
         return math.inf
     parts = []
     for axis in AXES:
-        keys = chosen_law(structure, member, axis, plain, "clamped")
+        keys = chosen_law(structure, member, axis, plain, Surroundings("clamped"))
         most = min(_most(structure, member, axis, keys, sense) for sense in (1, -1))
         parts.append(float(about @ frame.axis(axis)) * most)
     return math.hypot(*parts)

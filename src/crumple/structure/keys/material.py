@@ -10,6 +10,7 @@ from pydantic import ConfigDict, Field, model_validator
 
 from crumple import material
 from crumple.errors import InputError
+from crumple.material.hardening.curve import HardeningCurve
 from crumple.registry.quantity import (
     Converted,
     PoissonsRatio,
@@ -47,15 +48,15 @@ class MaterialSpec(Spec):
     ultimate_stress: PositiveStress | None = None
     """Nominal ultimate strength, where known; a grade has its own."""
     flow_stress: PositiveStress | None = None
-    """Mean stress in a fold at large strain; without it that of `hardening` at a plastic strain of 0.1, else
-    the yield stress, of a grade (yield + ultimate)/2."""
+    """Mean stress in a fold at large strain; without it that of `hardening`, or of a grade's curve, at a plastic
+    strain of 0.1, else the yield stress."""
     yield_rate: RateSpec | None = None
     """Strain-rate law at yield; without it no rate effect."""
     flow_rate: RateSpec | None = None
     """Strain-rate law at large strain; without it no rate effect."""
     hardening: HardeningSpec | None = None
     """True stress against plastic strain, from the yield stress; shells follow it. Without it they are
-    perfectly plastic at the flow stress."""
+    perfectly plastic at the flow stress, but for a grade without `flow_stress`, which has a curve."""
     failure_strain: PositiveNumber | None = None
     """Plastic strain at which a wall tears: a shell element is deleted when all its points reach it."""
 
@@ -118,11 +119,12 @@ class MaterialSpec(Spec):
         """Material of the physics room, under the name that the description gives it."""
         return _made(self, name)
 
-    @property
-    def _flow_stress(self) -> float | None:
-        if self.flow_stress is None and self.grade is not None and self.ultimate_stress is not None:
-            return material.mean_flow_stress(self.yield_stress, self.ultimate_stress)
-        return self.flow_stress
+    def _curve(self) -> HardeningCurve | None:
+        if self.hardening is not None:
+            return self.hardening.curve(self.yield_stress)
+        if self.grade is None or self.flow_stress is not None:
+            return None
+        return material.grade_curve(self.grade, self.yield_stress, self.ultimate_stress)
 
     @property
     def statement(self) -> str:
@@ -140,9 +142,9 @@ def _made(spec: MaterialSpec, name: str) -> material.Material:
         density=spec.density,
         yield_stress=spec.yield_stress,
         ultimate_stress=spec.ultimate_stress,
-        given_flow_stress=spec._flow_stress,
+        given_flow_stress=spec.flow_stress,
         yield_rate=None if spec.yield_rate is None else spec.yield_rate.law(),
         flow_rate=None if spec.flow_rate is None else spec.flow_rate.law(),
-        hardening=None if spec.hardening is None else spec.hardening.curve(spec.yield_stress),
+        hardening=spec._curve(),
         failure_strain=spec.failure_strain,
     )

@@ -21,7 +21,8 @@ outputs: {every: 1 ms}
 """
 PLAIN = "youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa"
 METALS = {
-    "grade": ("{grade: S355}", True),
+    "grade": ("{grade: S355}", False),
+    "grade with a constant stress": ("{grade: S355, flow_stress: 412 MPa}", True),
     "flow stress": (f"{{{PLAIN}, flow_stress: 400 MPa}}", True),
     "perfectly plastic": (f"{{{PLAIN}}}", False),
     "hardening": (f"{{{PLAIN}, hardening: {{type: swift, prestrain: 0.01, exponent: 0.1}}}}", False),

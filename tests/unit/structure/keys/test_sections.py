@@ -11,7 +11,7 @@ from pydantic import TypeAdapter
 
 from crumple import section
 from crumple.errors import InputError
-from crumple.material import Material, grade
+from crumple.material import Material, Swift, grade, grade_curve
 from crumple.structure import MaterialSpec, Structure, placed_hinges
 from crumple.structure.keys.section import SectionSpec
 
@@ -256,10 +256,13 @@ def test_a_grade_fills_in_what_is_not_given():
     made, typical = spec.material("steel"), grade("S355").material
     assert made.yield_stress == 400e6
     assert made.ultimate_stress == typical.ultimate_stress
-    assert made.flow_stress == pytest.approx((400e6 + typical.ultimate_stress) / 2)
+    assert made.hardening == grade_curve("S355", 400e6)
     plain = MaterialSpec(grade="S355").material("S355")
     assert plain == typical
-    assert MaterialSpec(grade="S355", flow_stress=5e8).material("").flow_stress == 5e8
+    constant = MaterialSpec(grade="S355", flow_stress=4.5e8).material("")
+    assert (constant.flow_stress, constant.hardening) == (4.5e8, None)
+    own = MaterialSpec(grade="S355", hardening={"type": "swift", "prestrain": 0.01, "exponent": 0.1})
+    assert own.material("").hardening == Swift(355e6, 0.01, 0.1)
     assert MaterialSpec(**spec.model_dump()) == spec
 
 

@@ -11,9 +11,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from crumple.hinge.registry import Fold
-from crumple.section import Axis, fold_distance, half_fold_length
+from crumple.section import Axis, half_fold_length
 from crumple.structure.hinges.corners import corners
 from crumple.structure.hinges.joint_reach import joint_reach
+from crumple.structure.hinges.law_choice import UNKNOWN, Surroundings, distance_of_fold
 from crumple.structure.hinges.lengthening.braced import braced
 from crumple.structure.hinges.lengthening.held_runs import pushed_runs
 from crumple.structure.hinges.lengthening.stopped import stopped
@@ -26,6 +27,11 @@ ASIDE = 0.001
 """Distance of a hinge from the place where an obstacle with friction strikes, over half a fold length: just
 there both pieces would touch it at one point, which leaves the friction of each undetermined and takes three
 times as long; a hundred times as far, one of them takes most of it and pushes the member aside."""
+
+MOST_INSIDE = 0.3
+"""Largest distance of a candidate from the end of its run, over the length of the run."""
+FREE = Surroundings("free")
+"""Of a fold between those beside the ends of its run."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +63,7 @@ class Candidate:
         Its member, and its own name.
     station
         Distance from the member's first node [m].
-    fold
+    near
         Whether it lies between those beside the ends of the run, or beside what keeps the section there in
         shape: all but a mitre.
     strike
@@ -67,7 +73,7 @@ class Candidate:
     member: str
     name: str
     station: float
-    fold: Fold | None = None
+    near: Surroundings = UNKNOWN
     strike: Strike | None = None
 
 
@@ -105,13 +111,19 @@ def _candidates(
     ends = list(zip((names[0], names[-1]), run.nodes, strict=True))
     first_held, last_held = (carries_moment(structure, *one) for one in ends)
     start, end = joint_reach(structure, *ends[0]), run.length - joint_reach(structure, *ends[1])
+    held = passes_moment(structure, *ends[0], axes), passes_moment(structure, *ends[1], axes)
+    pressed = list(_struck(structure, run, half, ends=True))
+    loaded = [at for node, at in run.between.items() if node in structure.loaded_nodes]
+    loaded += [at for _, at in pressed if start < at < end]
     # a run that is shorter than two folds has room for one
     if 4.0 * half >= end - start:
         if first_held or last_held:
-            yield replace(_candidate(run, "1", (start + end) / 2.0), fold=_beside(structure, *run.nodes))
+            near = Surroundings(_beside(structure, *run.nodes), _span(end - start, [], all(held)))
+            yield replace(_candidate(run, "1", (start + end) / 2.0), near=near)
         return
-    inside = max(fold_distance(section, axis) for axis in axes)
-    first, last = start + inside, end - inside
+    beside = [_beside(structure, node) for node in run.nodes]
+    inside = [_inside(structure, run, axes, one) for one in beside]
+    first, last = start + inside[0], end - inside[1]
     struck = [(name, at) for name, at in _struck(structure, run, half, ends=False) if first < at < last]
     struck = [(f"{name}-struck" if name in (*run.nodes, *run.between) else name, at) for name, at in struck]
     number = 1 if spacing is None else max(1, math.ceil((last - first) / spacing * (1.0 - 1e-9)))
@@ -123,15 +135,17 @@ def _candidates(
     number = max(2, number) if pressed_free and structure.members[names[0]].elastic else number
     between = np.linspace(first, last, number + 1)[1:-1].tolist()
     if first_held:
-        yield replace(_candidate(run, run.nodes[0], first), fold=_beside(structure, run.nodes[0]))
+        span = _span(end - start, [at - start for at in loaded], held[1])
+        near = Surroundings(beside[0], span, inside[0])
+        yield replace(_candidate(run, run.nodes[0], first), near=near)
     if last_held:
-        yield replace(_candidate(run, run.nodes[1], last), fold=_beside(structure, run.nodes[1]))
+        span = _span(end - start, [end - at for at in loaded], held[0])
+        near = Surroundings(beside[1], span, inside[1])
+        yield replace(_candidate(run, run.nodes[1], last), near=near)
     inner = [(str(i), at) for i, at in enumerate(between, 1)]
     taken = [first, *between, last]
-    beside = [(node, at - ASIDE * half) for node, at in run.between.items()]
-    held = passes_moment(structure, *ends[0], axes), passes_moment(structure, *ends[1], axes)
-    pressed = list(_struck(structure, run, half, ends=True))
-    for name, at in (*inner, *struck, *beside):
+    divided = [(node, at - ASIDE * half) for node, at in run.between.items()]
+    for name, at in (*inner, *struck, *divided):
         before = bisect(taken, at)
         apart = all(abs(at - other) > 2.0 * half for other in taken[max(before - 1, 0) : before + 1])
         if apart or (name, at) in inner:
@@ -139,12 +153,31 @@ def _candidates(
                 taken.insert(before, at)
             strikes = tuple(obstacle for obstacle, place in pressed if abs(at - place) <= half)
             strike = Strike(strikes, (at - start, end - at), held) if strikes else None
-            yield replace(_candidate(run, name, at), fold="free", strike=strike)
+            yield replace(_candidate(run, name, at), near=FREE, strike=strike)
 
 
 def _candidate(run: StraightRun, name: str, along: float) -> Candidate:
     member = run.member_at(along)
     return Candidate(member, f"{member}-{name}", run.stretches[member].station(along))
+
+
+def _inside(structure: StructureParts, run: StraightRun, axes: tuple[Axis, ...], fold: Fold | None) -> float:
+    """Distance of a candidate from the end of its run [m]; two of them have a part of the run between them."""
+    furthest = max(distance_of_fold(structure, run.first, axis, fold) for axis in axes)
+    return min(furthest, MOST_INSIDE * run.length)
+
+
+def _span(length: float, loaded: list[float], other_end: bool) -> float:
+    """Distance from one end of a run to where it carries no moment [m], as in a beam that folds there.
+
+    Parameters
+    ----------
+    length, loaded
+        Of the run, and distances of what loads it in between from this end [m].
+    other_end
+        Whether the other end takes a moment: what loads the run first, or that end, then folds the other way.
+    """
+    return min([length, *loaded]) / 2.0 if other_end else length
 
 
 def _beside(structure: StructureParts, *nodes: str) -> Fold | None:
