@@ -238,8 +238,8 @@ def short(folder: Path) -> None:
 def read_places(folder: Path, kind: Kind, *, held_out: bool) -> list[Solved]:
     """Place of the fold of each cantilever, its distance from the clamp over half a fold, at every rotation.
 
-    Member and fold turn the tip by p and deflect it by w, both plastic, about the place L - w/sin p: its mean over
-    the rotations `PLACED`.
+    Member and fold turn the tip by p and deflect it by w, both plastic, about the place L - w/sin p: its
+    mean over the rotations `PLACED`.
     """
     found = []
     for point in design(kind):

@@ -33,9 +33,9 @@ NECKING: dict[Family, tuple[float, float]] = {
     Family.STAINLESS_STEEL: (0.75, 1.00),
     Family.ALUMINIUM: (0.52, 0.98),
 }
-"""True strain at which necking begins, a (b - yield/ultimate): m_2 of ASME BPVC VIII-3 table KM-620 (the same in
-VIII-2 annex 3-D), which is the uniform strain of that code's stress-strain curves; read in a program that
-reproduces the table and was checked with the edition of 2023 (github.com/nathanrboyer/ASME_Materials).
+"""True strain at which necking begins, a (b - yield/ultimate): m_2 of ASME BPVC VIII-3 table KM-620 (the
+same in VIII-2 annex 3-D), which is the uniform strain of that code's stress-strain curves; read in a program
+that reproduces the table and was checked with the edition of 2023 (github.com/nathanrboyer/ASME_Materials).
 Stainless steel is the austenitic one."""
 
 

@@ -13,9 +13,9 @@ another moment where the moment falls faster along it, to nothing at the span a:
 
     M(theta; x, a) = M(theta) exp(s(theta) (D/a - 1/6)) (a - x)/(a - d)
 
-with the larger side D, M of the cantilevers of 6 D, and s of further ones of 4 and 2.5 D.  Round tubes have no s;
-their moment is taken to be that of cantilevers of L = 8 D at the place e(theta) where they turn, which moves
-from d to x while the plastic zone becomes a fold:
+with the larger side D, M of the cantilevers of 6 D, and s of further ones of 4 and 2.5 D.  Round tubes have
+no s; their moment is taken to be that of cantilevers of L = 8 D at the place e(theta) where they turn, which
+moves from d to x while the plastic zone becomes a fold:
 
     M(theta; x, a) = M(theta) (L - e)/(L - d) (a - x)/(a - e)
 """
@@ -130,7 +130,7 @@ def clamped_fold_distance(section: Section, material: Material, axis: Axis) -> f
 
     References
     ----------
-    docs/theory/tube_library.md.  Verified in tests/verification/hinge/test_fold_places.py.
+    docs/theory/tube_library.md.  Verified in tests/verification/characterisation/test_short_spans.py.
     """
     place = place_of_tube(section, material, axis)
     table = tube_table(PLACES[section.kind])

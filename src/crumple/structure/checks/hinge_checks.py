@@ -11,6 +11,7 @@ from itertools import pairwise, product
 from crumple.errors import InputError, Problem
 from crumple.hinge.registry import BENDING
 from crumple.structure.hinges.hinges import spatial_record_of
+from crumple.structure.hinges.law_choice import Surroundings
 from crumple.structure.hinges.places import HingePlace, alike_law, law_of, member_hinge_places
 from crumple.structure.hinges.runs.ends import holds_rotation
 from crumple.structure.keys.member import Hinge
@@ -24,7 +25,7 @@ APART = 1e-6
 def place_problems(structure: StructureParts, known: Mapping[str, Names]) -> Iterator[Problem]:
     """Places, names and laws of hinges."""
     where: dict[str, list[str]] = defaultdict(list)
-    sound: set[tuple[str, str, str, str, str | None]] = set()
+    sound: set[tuple[str, str, str, str, Surroundings]] = set()
     reported: set[Problem] = set()
     for name in sound_members(structure):
         places, length = member_hinge_places(structure, name), structure.frame_of(name).length

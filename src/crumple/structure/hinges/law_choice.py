@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from crumple.hinge.bending.estimate import automatic_type
 from crumple.hinge.law import HingeLaw
@@ -24,8 +24,7 @@ CLAMPED = "clamped_tube"
 """Law of folds beside clamps and joints; it goes before a stored one, whose fold lies between two pieces."""
 
 
-@dataclass(frozen=True)
-class Surroundings:
+class Surroundings(NamedTuple):
     """What lies beside a fold.
 
     Attributes

@@ -48,8 +48,8 @@ class MaterialSpec(Spec):
     ultimate_stress: PositiveStress | None = None
     """Nominal ultimate strength, where known; a grade has its own."""
     flow_stress: PositiveStress | None = None
-    """Mean stress in a fold at large strain; without it that of `hardening`, or of a grade's curve, at a plastic
-    strain of 0.1, else the yield stress."""
+    """Mean stress in a fold at large strain; without it that of `hardening`, or of a grade's curve, at a
+    plastic strain of 0.1, else the yield stress."""
     yield_rate: RateSpec | None = None
     """Strain-rate law at yield; without it no rate effect."""
     flow_rate: RateSpec | None = None

@@ -89,7 +89,7 @@ def test_crush_zones_have_their_mean_and_peak(rails):
 
 BOX = """
 crumple: 1
-materials: {alu: {grade: 6060-T6}}
+materials: {alu: {grade: 6060-T6, flow_stress: 170 MPa}}
 sections: {tube: {type: square_tube, side: 70 mm, thickness: 2 mm}}
 nodes: {root: [0 m, 0 m, 0 m], tip: [250 mm, 0 m, 0 m]}
 members:

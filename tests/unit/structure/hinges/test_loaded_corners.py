@@ -7,11 +7,11 @@ import math
 import pytest
 
 from crumple.analysis import loads
-from crumple.section import fold_distance
 from crumple.shell.mesh.mesh import mesh_of
 from crumple.structure import ShellSettings, hinge_places
 from crumple.structure.hinges.corners import corners, untreated
 from crumple.structure.hinges.joint_reach import joint_reach
+from crumple.structure.hinges.law_choice import distance_of_fold
 
 BENT = """crumple: 1
 materials:
@@ -50,9 +50,9 @@ def test_a_loaded_corner_folds_in_either_member_outside_of_its_mitre(acting):
     # the inner edges of two tubes of 60 mm meet 30 mm from the node
     assert joint_reach(structure, "post", "corner") == pytest.approx(0.030)
     at = {place.name: place.station for place in hinge_places(structure)}
-    half = fold_distance(structure.section_of("post"), "y")
-    assert at["arm-corner"] == pytest.approx(0.030 + half)
-    assert at["post-corner"] == pytest.approx(0.45 - 0.030 - half)
+    inside = distance_of_fold(structure, "post", "y", "clamped")
+    assert at["arm-corner"] == pytest.approx(0.030 + inside)
+    assert at["post-corner"] == pytest.approx(0.45 - 0.030 - inside)
 
 
 def test_the_inner_edge_of_a_flat_mitre_is_nearer():

@@ -111,19 +111,20 @@ def _candidates(
     ends = list(zip((names[0], names[-1]), run.nodes, strict=True))
     first_held, last_held = (carries_moment(structure, *one) for one in ends)
     start, end = joint_reach(structure, *ends[0]), run.length - joint_reach(structure, *ends[1])
+    # a run that is shorter than two folds has room for one
+    if 4.0 * half >= end - start:
+        if first_held or last_held:
+            span = _span(end - start, [], first_held and last_held)
+            near = Surroundings(_beside(structure, *run.nodes), span)
+            yield replace(_candidate(run, "1", (start + end) / 2.0), near=near)
+        return
     held = passes_moment(structure, *ends[0], axes), passes_moment(structure, *ends[1], axes)
     pressed = list(_struck(structure, run, half, ends=True))
     loaded = [at for node, at in run.between.items() if node in structure.loaded_nodes]
     loaded += [at for _, at in pressed if start < at < end]
-    # a run that is shorter than two folds has room for one
-    if 4.0 * half >= end - start:
-        if first_held or last_held:
-            near = Surroundings(_beside(structure, *run.nodes), _span(end - start, [], all(held)))
-            yield replace(_candidate(run, "1", (start + end) / 2.0), near=near)
-        return
     beside = [_beside(structure, node) for node in run.nodes]
-    inside = [_inside(structure, run, axes, one) for one in beside]
-    first, last = start + inside[0], end - inside[1]
+    inside = {fold: _inside(structure, run, axes, fold) for fold in dict.fromkeys(beside)}
+    first, last = start + inside[beside[0]], end - inside[beside[1]]
     struck = [(name, at) for name, at in _struck(structure, run, half, ends=False) if first < at < last]
     struck = [(f"{name}-struck" if name in (*run.nodes, *run.between) else name, at) for name, at in struck]
     number = 1 if spacing is None else max(1, math.ceil((last - first) / spacing * (1.0 - 1e-9)))
@@ -136,11 +137,11 @@ def _candidates(
     between = np.linspace(first, last, number + 1)[1:-1].tolist()
     if first_held:
         span = _span(end - start, [at - start for at in loaded], held[1])
-        near = Surroundings(beside[0], span, inside[0])
+        near = Surroundings(beside[0], span, inside[beside[0]])
         yield replace(_candidate(run, run.nodes[0], first), near=near)
     if last_held:
         span = _span(end - start, [end - at for at in loaded], held[0])
-        near = Surroundings(beside[1], span, inside[1])
+        near = Surroundings(beside[1], span, inside[beside[1]])
         yield replace(_candidate(run, run.nodes[1], last), near=near)
     inner = [(str(i), at) for i, at in enumerate(between, 1)]
     taken = [first, *between, last]
@@ -162,7 +163,7 @@ def _candidate(run: StraightRun, name: str, along: float) -> Candidate:
 
 
 def _inside(structure: StructureParts, run: StraightRun, axes: tuple[Axis, ...], fold: Fold | None) -> float:
-    """Distance of a candidate from the end of its run [m]; two of them have a part of the run between them."""
+    """Distance of a candidate from the end of its run [m]; there is room between two of them."""
     furthest = max(distance_of_fold(structure, run.first, axis, fold) for axis in axes)
     return min(furthest, MOST_INSIDE * run.length)
 
