@@ -1,7 +1,7 @@
 """Positions of candidate hinges of `hinges: auto`: wherever a fold can form.
 
 Bending moments are largest where something holds, joins or loads a member, and masses, supports and joints
-all sit on nodes: so a candidate lies near each end of a member (`fold_distance`), unless nothing there
+all sit on nodes: so a candidate lies near each end of a member (`distance_of_fold`), unless nothing there
 can carry a moment.  Members in line that are one tube (straight_runs) count as one, with a single candidate
 at each node between them.  Obstacles also strike members between their nodes: a candidate lies there
 (struck_places) if no other is within one fold.  Braced members carry forces along their axis and buckle with

@@ -120,8 +120,7 @@ def _candidates(
         return
     held = passes_moment(structure, *ends[0], axes), passes_moment(structure, *ends[1], axes)
     pressed = list(_struck(structure, run, half, ends=True))
-    loaded = [at for node, at in run.between.items() if node in structure.loaded_nodes]
-    loaded += [at for _, at in pressed if start < at < end]
+    loaded = [at for _, at in pressed if start < at < end]
     beside = [_beside(structure, node) for node in run.nodes]
     inside = {fold: _inside(structure, run, axes, fold) for fold in dict.fromkeys(beside)}
     first, last = start + inside[beside[0]], end - inside[beside[1]]
