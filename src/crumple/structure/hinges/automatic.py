@@ -2,12 +2,12 @@
 
 Bending moments are largest where something holds, joins or loads a member, and masses, supports and joints
 all sit on nodes: so a candidate lies near each end of a member (`distance_of_fold`), unless nothing there
-can carry a moment.  Members in line that are one tube (straight_runs) count as one, with a single candidate
-at each node between them.  Obstacles also strike members between their nodes: a candidate lies there
-(struck_places) if no other is within one fold.  Braced members carry forces along their axis and buckle with
-a hinge between those at their ends: a candidate lies in their middle.  Distributed inertia and long spans
-bend members in between: `spacing` puts further candidates there.  A candidate that is never loaded to its
-capacity stays rigid, and changes nothing.
+can carry a moment.  Members in line that are one tube (straight_runs) count as one: at a node between them
+is a candidate only if it is a kink, or an obstacle strikes there.  Obstacles also strike members between
+their nodes: a candidate lies there (struck_places) if no other is within one fold.  Braced members carry
+forces along their axis and buckle with a hinge between those at their ends: a candidate lies in their middle.
+Distributed inertia and long spans bend members in between: `spacing` puts further candidates there.  A
+candidate that is never loaded to its capacity stays rigid, and changes nothing.
 
 Members of a straight run between supports (held_runs), braced members (braced), and elastic members of
 structures of which an obstacle strikes a rigid joint (joint_reach), also change their length at their hinges,

@@ -132,13 +132,20 @@ def continues(structure: StructureParts, node: str) -> bool:
         return False
     first, second = members
     arriving, onward = -leaving(structure, first, node), leaving(structure, second, node)
-    angle = math.acos(float(np.clip(arriving @ onward, -1.0, 1.0)))
+    angle = kink_at(structure, node)
     if angle >= SMALLEST or next(_reasons(structure, node, (first, second), angle), None) is not None:
         return False
     across = np.cross(arriving, onward)
     bent = float(np.linalg.norm(across))
     normal = across / bent if bent > ALONG else structure.frame_of(first).y
     return _lie_alike(structure, ((first, arriving), (second, onward)), normal)
+
+
+def kink_at(structure: StructureParts, node: str) -> float:
+    """Angle [rad] by which the second of two members at a node is off the line of the first."""
+    first, second = structure.members_at[node]
+    arriving, onward = -leaving(structure, first, node), leaving(structure, second, node)
+    return math.atan2(float(np.linalg.norm(np.cross(arriving, onward))), float(arriving @ onward))
 
 
 def _corner(structure: StructureParts, node: str, members: list[str]) -> Corner | str:

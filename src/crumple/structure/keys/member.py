@@ -87,7 +87,7 @@ class AutomaticHinges(HingeAxes):
     spacing: PositiveLength | None = None
     """Largest distance between candidates along a member; without it they lie at its ends, at the
     distance of a fold from a rigid face, and where an obstacle strikes it in between. Members in line that
-    are one tube count as one, with a candidate at each node between them."""
+    are one tube count as one, with a candidate at a node between them only if it is a kink or is struck."""
 
 
 def _is_group(given: Any) -> bool:

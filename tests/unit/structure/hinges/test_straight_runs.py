@@ -1,4 +1,4 @@
-"""Members in line that are one tube have one candidate at a node between them."""
+"""Members in line that are one tube fold as one: with one candidate at a kink between them, none elsewhere."""
 
 import math
 from itertools import pairwise
@@ -15,35 +15,48 @@ from crumple.structure.hinges.runs.straight_runs import straight_run
 NODES = {"a": (0.0, 0.0, 0.0), "b": (0.4, 0.0, 0.0), "c": (1.0, 0.0, 0.0), "d": (1.0, 0.0, 0.5)}
 TUBE = RectangularTube(0.050, 0.025, 0.00265)
 INSIDE, HALF = fold_distance(TUBE, "y"), half_fold_length(TUBE, "y")
+KINKED = NODES | {"b": (0.4, 0.0, 0.01)}
+"""2.4 degrees at b."""
 LINE = {"ab": member("a", "b") | {"hinges": ()}, "bc": member("b", "c") | {"hinges": ()}}
 HELD = CLAMP | {"far": {"node": "c", "fix": "all"}}
 
 
-def line(members=LINE, nodes=("a", "b", "c"), **parts):
+def line(members=LINE, nodes=("a", "b", "c"), places=NODES, **parts):
     parts = {"supports": HELD, "hinges": "auto"} | parts
-    return structure({name: NODES[name] for name in nodes}, members, **parts)
+    return structure({name: places[name] for name in nodes}, members, **parts)
 
 
 def stations(whole):
     return {place.name: pytest.approx(place.station) for place in hinge_places(whole)}
 
 
-def test_a_node_in_a_tube_has_one_candidate_just_before_it():
-    expected = {"ab-a": INSIDE, "ab-b": 0.4 - ASIDE * HALF, "bc-c": 0.6 - INSIDE}
-    assert stations(line()) == expected
+def test_a_node_in_a_straight_tube_changes_no_candidate():
+    assert stations(line()) == {"ab-a": INSIDE, "bc-c": 0.6 - INSIDE}
+
+
+def test_a_kink_in_a_tube_has_one_candidate_just_before_it():
+    length = math.hypot(0.4, 0.01)
+    found = stations(line(places=KINKED, supports=CLAMP))
+    assert found == {"ab-a": INSIDE, "ab-b": length - ASIDE * HALF}
+
+
+def test_a_struck_node_in_a_tube_has_one_candidate_just_before_it():
+    pole = {"type": "sphere", "point": (0.4, 0.0, 0.3), "radius": 0.1, "mass": 10.0, "guide": (0.0, 0.0, 1.0)}
+    struck = line(obstacles={"pole": pole | {"velocity": (0.0, 0.0, -5.0)}})
+    assert stations(struck)["ab-b"] == pytest.approx(0.4 - ASIDE * HALF)
 
 
 def test_members_may_lead_either_way():
     turned = LINE | {"bc": member("c", "b") | {"hinges": ()}}
-    assert stations(line(turned)) == {"ab-a": INSIDE, "ab-b": 0.4 - ASIDE * HALF, "bc-c": INSIDE}
+    assert stations(line(turned)) == {"ab-a": INSIDE, "bc-c": INSIDE}
     run = straight_run(line(turned), "bc")
     assert list(run.stretches) == ["ab", "bc"]
     assert run.nodes == ("a", "c")
     assert run.stretches["bc"].station(1.0) == pytest.approx(0.0)
 
 
-def test_nodes_within_one_fold_of_each_other_share_a_candidate():
-    nodes = NODES | {f"n{i}": (0.4 + 0.01 * i, 0.0, 0.0) for i in range(1, 4)}
+def test_kinks_within_one_fold_of_each_other_share_a_candidate():
+    nodes = NODES | {f"n{i}": (0.4 + 0.01 * i, 0.0, 0.0002 * (i % 2)) for i in range(1, 4)}
     names = ("b", "n1", "n2", "n3")
     short = {first + second: member(first, second) for first, second in pairwise(names)}
     members = {"ab": member("a", "b"), **short, "nc": member("n3", "c")}

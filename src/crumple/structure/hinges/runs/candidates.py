@@ -12,7 +12,7 @@ import numpy as np
 
 from crumple.hinge.registry import Fold
 from crumple.section import Axis, half_fold_length
-from crumple.structure.hinges.corners import corners
+from crumple.structure.hinges.corners import corners, kink_at
 from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.law_choice import UNKNOWN, Surroundings, distance_of_fold
 from crumple.structure.hinges.lengthening.braced import braced
@@ -30,6 +30,9 @@ times as long; a hundred times as far, one of them takes most of it and pushes t
 
 MOST_INSIDE = 0.3
 """Largest distance of a candidate from the end of its run, over the length of the run."""
+STRAIGHT = 5e-3
+"""Angle between members in line [rad] up to which a node between them is not a place of its own: far above
+rounded coordinates, and far below the kinks by which a polygon stands for a curved member."""
 FREE = Surroundings("free")
 """Of a fold between those beside the ends of its run."""
 
@@ -89,7 +92,7 @@ def candidates_on(
     axes
         Bending axes of the candidates: the longest of their folds counts.
     spacing
-        Largest distance between candidates [m]; None: only at the ends, at nodes, in the middle of braced
+        Largest distance between candidates [m]; None: only at the ends, at kinks, in the middle of braced
         members and pushed runs, and where obstacles strike.
     """
 
@@ -144,7 +147,12 @@ def _candidates(
         yield replace(_candidate(run, run.nodes[1], last), near=near)
     inner = [(str(i), at) for i, at in enumerate(between, 1)]
     taken = [first, *between, last]
-    divided = [(node, at - ASIDE * half) for node, at in run.between.items()]
+    folding = {node for node, at in run.between.items() if any(abs(at - place) <= half for _, place in pressed)}
+    divided = [
+        (node, at - ASIDE * half)
+        for node, at in run.between.items()
+        if node in folding or kink_at(structure, node) > STRAIGHT
+    ]
     for name, at in (*inner, *struck, *divided):
         before = bisect(taken, at)
         apart = all(abs(at - other) > 2.0 * half for other in taken[max(before - 1, 0) : before + 1])
