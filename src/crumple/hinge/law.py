@@ -81,8 +81,14 @@ class Validity:
         """Warning for a rotation [rad] of the softening variable beyond the range, else None."""
         if rotation <= self.rotation_max:
             return None
-        reached, valid = np.degrees(rotation), np.degrees(self.rotation_max)
-        return f"the hinge turned by {reached:.1f} deg, its law is valid up to {valid:.1f} deg: {self.basis}"
+        return f"the hinge turned by {np.degrees(rotation):.1f} deg, its law {self.range_text}"
+
+    @property
+    def range_text(self) -> str:
+        """What the law is valid for, as the end of a sentence whose subject it is."""
+        if self.rotation_max <= 0.0:
+            return f"has no range of validity ({self.basis})"
+        return f"is valid up to {np.degrees(self.rotation_max):.1f} deg only ({self.basis})"
 
 
 @runtime_checkable

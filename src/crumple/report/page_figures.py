@@ -123,7 +123,8 @@ def _moments(result: Result) -> Plots:
         named = (("Law", summary.law), ("Source", summary.source))
         parts = [sentence_case(f"{name}: {text}") for name, text in named if text]
         if summary.validity_rotation is not None and isfinite(summary.validity_rotation):
-            parts.append(f"Range of validity: up to {angle(summary.validity_rotation)}.")
+            limit = summary.validity_rotation
+            parts.append(f"Range of validity: {f'up to {angle(limit)}' if limit > 0.0 else 'none'}.")
         laws.setdefault(" ".join(parts), []).append(hinge)
     which = "hinge" if len(ranked) == 1 else "hinges"
     caption = f"Moment over rotation of {which} {', '.join(ranked)}: paths of the run and laws."

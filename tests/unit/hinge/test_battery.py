@@ -332,7 +332,8 @@ def test_law_has_a_source_and_a_range_of_validity(case, section, shares, sense):
     assert law.validity.basis
     assert law.validity.warning_at(0.99 * min(law.validity.rotation_max, 10.0)) is None
     if math.isfinite(law.validity.rotation_max):
-        assert "valid up to" in law.validity.warning_at(law.validity.rotation_max + 0.01)
+        said = "valid up to" if law.validity.rotation_max > 0.0 else "has no range of validity"
+        assert said in law.validity.warning_at(law.validity.rotation_max + 0.01)
     # beyond jamming no law is valid
     assert law.jamming_angle is None or law.validity.rotation_max <= law.jamming_angle
     # a law that stays constant has a finite range or a warning

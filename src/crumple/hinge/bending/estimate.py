@@ -94,7 +94,7 @@ class EstimatedLaw:
         what = "the softening is that of the rectangular tube around the section"
         basis = what if tube is not None else "no rectangular tube lies around the section: no softening"
         rate = hinge_rate(material.flow_rate)
-        return cls(plastic, tube, rate, Validity(0.0, f"an estimate without a range; {basis}"))
+        return cls(plastic, tube, rate, Validity(0.0, f"an estimate; {basis}"))
 
     @property
     def title(self) -> str:

@@ -5,6 +5,9 @@ Members with hinges of the input's own may have none where an obstacle strikes b
 They cannot fold there: rigid bars stop the obstacle at once.  Automatic hinges have a candidate there.  A
 hinge within one fold, two half lengths, stands for the fold, and so does what is at a node within one fold.
 Members without any hinge are meant to keep their shape.
+
+Folds that keep little of their moment for a dent that the obstacle does not press: the law assumes that what
+holds the tube stays where it is.
 """
 
 from __future__ import annotations
@@ -14,6 +17,7 @@ from collections.abc import Collection, Iterator, Mapping
 import numpy as np
 
 from crumple._core.outcome import Outcome
+from crumple.hinge.bending.dented import DentedLaw
 from crumple.multibody.answer.solved import Solved
 from crumple.multibody.checks.names import named
 from crumple.numeric.arrays import Floats
@@ -21,9 +25,15 @@ from crumple.result import Caution
 from crumple.section import AXES, half_fold_length
 from crumple.structure import Structure, plastic_hinges
 from crumple.structure.hinges.asked import automatic_of, folds_at_ends
+from crumple.structure.hinges.runs.straight_runs import straight_run
 from crumple.structure.hinges.spatial_hinges import interaction_of
+from crumple.structure.hinges.struck_folds import left_by
 from crumple.structure.struck_places import struck_places
 from crumple.units import format_quantity
+
+DEEPER = 0.15
+"""Share of its moment that a fold has to keep more by the dent of the run than by that of its law, for a
+sentence: a bending moment is known about as well."""
 
 
 def struck_cautions(structure: Structure, solved: Solved | None = None) -> Iterator[Caution]:
@@ -164,3 +174,25 @@ def _touched(structure: Structure, solved: Solved | None) -> set[str]:
         for name in structure.obstacles
         if any(force[f"obstacle.{name}.force.{axis}"].any() for axis in "xyz")
     }
+
+
+def undented(structure: Structure, solved: Solved) -> Iterator[str]:
+    """A sentence for every fold whose law assumes a far deeper dent than the obstacle presses in the run."""
+    deepest: dict[str, tuple[float, float, str]] = {}
+    for dent in solved.dents:
+        depth = float(dent.depth.max(initial=0.0))
+        for member in straight_run(structure, dent.tube.member).stretches:
+            deepest[member] = depth, left_by(structure, dent.tube, depth), dent.tube.obstacle
+    for history in solved.hinges:
+        hinge = history.hinge
+        for _, law, _ in history.bent_by_law():
+            if not isinstance(law, DentedLaw) or hinge.member not in deepest:
+                continue
+            depth, left, obstacle = deepest[hinge.member]
+            if left > law.left + DEEPER:
+                yield (
+                    f"Hinge {hinge.name} has at most {law.left:.0%} of its moment, for the dent that obstacle "
+                    f"{obstacle} would press if the ends of the tube stayed where they are; in this run it "
+                    f"is {format_quantity(depth, 'm')} deep, which leaves {left:.0%}. "
+                    f"Compare with obstacles.{obstacle}.dents: false."
+                )

@@ -18,6 +18,7 @@ from crumple.multibody.checks.held_parts import held_part_warnings
 from crumple.multibody.checks.names import named
 from crumple.multibody.checks.overlap import overlap_warnings
 from crumple.multibody.checks.physics import energy_put_in
+from crumple.multibody.checks.struck import undented
 from crumple.multibody.checks.stuck_drives import loose_drives
 from crumple.multibody.run import Run
 from crumple.result import HingeSummary
@@ -183,6 +184,7 @@ def warnings(
         span = _span(list(by_name.values()), 3)
         found.append(f"{named('Hinge', list(by_name))}: {text.format(turned=span)}")
     found += broken_warnings(solved.hinges)
+    found += undented(structure, solved)
     found += overlap_warnings(structure)
     found += held_part_warnings(structure, solved)
     found += loose_drives(structure, link(structure))
@@ -254,11 +256,7 @@ def _of_hinge(structure: Structure, history: HingeHistory) -> Iterator[tuple[str
         jammed = law.jamming_angle is not None and turned > law.jamming_angle
         # a closed fold has a caution of its own
         if not jammed and turned > law.validity.rotation_max:
-            valid, basis = math.degrees(law.validity.rotation_max), _literal(law.validity.basis)
-            yield (
-                f"turned by {{turned}} deg; the law is valid up to {valid:.1f} deg only ({basis})",
-                turned,
-            )
+            yield f"turned by {{turned}} deg; the law {_literal(law.validity.range_text)}", turned
     normal = structure.normal_of(hinge.member)
     if normal is not None and not _bends_both_ways(hinge):
         off = math.degrees(math.acos(min(1.0, abs(float(hinge.direction @ np.asarray(normal))))))

@@ -81,7 +81,7 @@ def _tells_of_range(warning: str, hinge: str) -> bool:
         return True
     head, _, rest = warning.partition(": ")
     named = re.search(rf"(?<![\w-]){re.escape(hinge)}(?![\w-])", head) is not None or head.endswith(" more")
-    return "the law is valid up to" in rest and named
+    return named and ("the law is valid up to" in rest or "the law has no range" in rest)
 
 
 def outside_range(result: Result, name: str) -> str:
@@ -91,8 +91,9 @@ def outside_range(result: Result, name: str) -> str:
     reached = _judged_rotation(hinge)
     if limit is None or not reached > limit:
         return ""
-    turned, valid = angle(reached), angle(limit)
-    return f"Hinge {name} turned {turned}, beyond the range of validity of its law, {valid}."
+    if limit <= 0.0:
+        return f"Hinge {name} turned {angle(reached)}; its law has no range of validity."
+    return f"Hinge {name} turned {angle(reached)}, beyond the range of validity of its law, {angle(limit)}."
 
 
 def _judged_rotation(hinge: HingeSummary) -> float:
@@ -269,6 +270,8 @@ def _range(hinge: HingeSummary) -> str:
     limit = hinge.validity_rotation
     if limit is None:
         return ""
+    if limit <= 0.0:
+        return "none"
     return f"{degrees(limit)}°" if math.isfinite(limit) else "any rotation"
 
 

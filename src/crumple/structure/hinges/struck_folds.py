@@ -14,7 +14,7 @@ import numpy as np
 from crumple.hinge import HingeLaw
 from crumple.hinge.bending.dented import DentedLaw
 from crumple.hinge.bending.pressed import Press, PressedLaw
-from crumple.hinge.dent import Dent, dent_of, denting_force, left_in_bending
+from crumple.hinge.dent import Dent, dent_of, denting_force, left_by_dent, left_in_bending
 from crumple.hinge.registry import AUTO
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
@@ -23,6 +23,7 @@ from crumple.structure.hinges.automatic import strikes_on
 from crumple.structure.hinges.corner_laws import corner_laws
 from crumple.structure.hinges.corners import leaving
 from crumple.structure.hinges.law_choice import Surroundings, automatic_law, chosen_law, made_law, plain_law
+from crumple.structure.hinges.runs.across import HeldEnd, held_end
 from crumple.structure.hinges.runs.candidates import Strike
 from crumple.structure.hinges.runs.ends import holds_rotation
 from crumple.structure.hinges.runs.straight_runs import StraightRun, straight_run
@@ -73,17 +74,19 @@ def with_dent(
     # the struck wall is compressed: +z by a negative rotation about y, +y by a positive one about z
     sense = 1 if (float(tube.outwards @ across) > 0.0) == (axis == "z") else -1
     material, moment = _metal(structure, member), float(law.moment_capacity(0.0, sense))
-    bent = _Bent(straight_run(structure, member), structure.frame_of(member).axis(axis), tube.outwards)
+    run = straight_run(structure, member)
+    ends = tuple(held_end(structure, run, end, tube.outwards) for end in (0, 1))
+    bent = _Bent(ends, structure.frame_of(member).axis(axis), tube.outwards)
     held = _held(structure, bent, strike, moment)
-    left = left_in_bending(section, material, tube.depth, moment, strike.spans, held)
+    spans = strike.spans[0] + ends[0].further, strike.spans[1] + ends[1].further
+    left = left_in_bending(section, material, tube.depth, moment, spans, held)
     if not isinstance(structure.section_of(member), RectangularTube):
         return DentedLaw(law, left)
     pole = structure.obstacles[tube.obstacle]
     assert isinstance(pole, CylinderObstacle)
     assert isinstance(section, RectangularTube)
-    ends = held[0] * moment, held[1] * moment
     force, half = denting_force(section, material), half_fold_length(section, axis)
-    press = Press(force, pole.radius, half, strike.spans, ends)
+    press = Press(force, pole.radius, half, spans, (held[0] * moment, held[1] * moment))
     if press.on_fold < LEAST_ON_FOLD:
         return DentedLaw(law, left)
     # what presses beside the fold dents the tube as a force does that bends it later
@@ -122,35 +125,34 @@ def _across(structure: StructureParts, member: str, axis: Axis) -> Floats:
 
 @dataclass(frozen=True)
 class _Bent:
-    """A tube that a dent bends: its straight run, about which direction, and where the obstacle is, (3,)."""
+    """A tube that a dent bends: what holds its ends, about which direction, and where the obstacle is, (3,)."""
 
-    run: StraightRun
+    ends: tuple[HeldEnd, ...]
     about: Floats
     outwards: Floats
 
 
 def _held(structure: StructureParts, bent: _Bent, strike: Strike, moment: float) -> tuple[float, float]:
-    """Shares of a moment [N m] that both ends of a run carry."""
+    """Shares of a moment [N m] that is carried at both ends."""
     first, last = (
-        min(1.0, _carried(structure, bent, node) / moment) if holds else 0.0
-        for node, holds in zip(bent.run.nodes, strike.held, strict=True)
+        min(1.0, _carried(structure, bent, end) / moment) if holds or end.further else 0.0
+        for end, holds in zip(bent.ends, strike.held, strict=True)
     )
     return first, last
 
 
-def _carried(structure: StructureParts, bent: _Bent, node: str) -> float:
-    """Moment [N m] that a support, the corner or other members carry at an end of a run."""
+def _carried(structure: StructureParts, bent: _Bent, end: HeldEnd) -> float:
+    """Moment [N m] that a support, the corner or other members carry at an end."""
+    own, node = end.run.stretches, end.node
     if holds_rotation(structure, node, bent.about):
-        return math.inf
+        return _beside_a_joint(structure, end.run.first, bent.about) if end.further else math.inf
     corner, keys = corner_laws(structure).get(node, (None, None))
     if corner is not None and keys is not None and abs(float(bent.about @ np.array(corner.normal))) >= SQUARE:
-        other = corner.second if corner.first in bent.run.stretches else corner.first
+        other = corner.second if corner.first in own else corner.first
         # pressed towards the other member, the run turns away from it at the corner
         opens = float(leaving(structure, other, node) @ bent.outwards) > 0.0
         return _most(structure, corner.first, corner.axis, keys, -corner.sense if opens else corner.sense)
-    return sum(
-        _beside_a_joint(structure, name, bent.about) for name in _held_beyond(structure, bent.run, node)
-    )
+    return sum(_beside_a_joint(structure, name, bent.about) for name in _held_beyond(structure, end.run, node))
 
 
 def _held_beyond(structure: StructureParts, run: StraightRun, node: str) -> Iterator[str]:
@@ -215,6 +217,13 @@ class DentedTube:
     outwards: Floats
     depth: float
     dent: Dent
+
+
+def left_by(structure: StructureParts, tube: DentedTube, depth: float) -> float:
+    """Share of the plastic moment that a dent of some depth [m] leaves, at most one to the middle."""
+    section = _walls(structure, tube.member)
+    assert section is not None
+    return left_by_dent(section, min(depth, (tube.depth - section.thickness) / 2.0), tube.depth)
 
 
 def dented_tubes(structure: StructureParts, obstacle: str) -> tuple[DentedTube, ...]:

@@ -84,6 +84,18 @@ def test_verdict_cautions_outside_the_range_once():
         assert len(verdict(reported, 1e-3, None).warnings) == left
 
 
+def test_a_law_without_a_range_is_not_called_valid_up_to_zero():
+    result = frame_result()
+    hinges = {
+        name: replace(hinge, validity_rotation=0.0) if name == "h0" else hinge
+        for name, hinge in result.hinges.items()
+    }
+    first = verdict(replace(result, hinges=hinges), 1e-3, None).warnings[0]
+    assert first == "Hinge h0 turned 28.65° (0.5000 rad); its law has no range of validity."
+    said = "Hinges h0, h1: turned by 28.6 deg; the law has no range of validity (estimate)"
+    assert len(verdict(replace(result, hinges=hinges, warnings=(said,)), 1e-3, None).warnings) == 1
+
+
 def test_verdict_bad_gives_status_and_reason():
     result = tube_result(status=Status.RESIDUAL_EXCEEDED, reason="it grew from 3 ms on", energy_residual=2e-3)
     message = verdict(result, 1e-3, None)

@@ -311,3 +311,53 @@ def test_a_corner_carries_the_moment_of_its_law_in_its_sense(above, closes):
     share = moments[0 if closes else 1] / moment
     section, steel = structure.section_of("beam"), structure.material_of("beam")
     assert left == pytest.approx(left_in_bending(section, steel, 60e-3, moment, strike.spans, (share, 1.0)))
+
+
+KINKED = """
+crumple: 1
+materials:
+  steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa}
+sections:
+  hat: {type: closed_hat, width: 60 mm, depth: 60 mm, thickness: 2 mm, flange: 20 mm}
+nodes: {left: [0 m, 0 m, 0 m], kink: [400 mm, 0 m, 0 m], right: [RIGHT m, 0 m, DROP m]}
+members:
+  beam: {nodes: [left, kink], section: hat, material: steel}
+  on: {nodes: [kink, right], section: hat, material: steel}
+hinges: auto
+supports: {foot: {node: left, fix: all}, end: {node: right, fix: [FIX, ry, rz, rx]}}
+MORE
+obstacles:
+  pole: {type: cylinder, point: [280 mm, 0 m, 90 mm], axis: [0, 1, 0], radius: 50 mm, mass: 20 kg,
+         velocity: [0 m/s, 0 m/s, -5 m/s], guide: [0, 0, -1], members: [beam]}
+analysis: {duration: 10 ms}
+"""
+WEIGHT = "masses: {m: {node: kink, mass: 5 kg}}"
+
+
+@pytest.mark.parametrize(
+    ("right", "drop", "fix", "more", "goes_on"),
+    [
+        (0.9, -0.2, "y, z", "", True),
+        # what cannot slide holds the kink as a strut, and so do a mass and a post
+        (0.9, -0.2, "x, y, z", "", False),
+        (0.9, -0.2, "y, z", WEIGHT, False),
+        (0.4, -0.5, "x, y", "", False),
+        # beyond it the tube is held by nothing
+        (0.9, -0.2, "y", "", False),
+    ],
+)
+def test_a_tube_spans_beyond_a_kink_that_nothing_holds(right, drop, fix, more, goes_on):
+    """Held at the kink, it would be dented far deeper before it bends."""
+    text = KINKED
+    for key, value in {"RIGHT": right, "DROP": drop, "FIX": fix, "MORE": more}.items():
+        text = text.replace(key, str(value))
+    structure = loads(text).structure
+    left, strike, moment = _left(structure)
+    section, steel = structure.section_of("beam"), structure.material_of("beam")
+    tube = RectangularTube(section.width, section.depth, section.thickness)
+    near, beside = strike.spans
+    further = (near, beside + 0.5) if goes_on else strike.spans
+    deep = left_in_bending(tube, steel, 60e-3, moment, strike.spans, (1.0, 1.0))
+    assert (left > 1.2 * deep) == goes_on
+    if goes_on:
+        assert left == pytest.approx(left_in_bending(tube, steel, 60e-3, moment, further, (1.0, 1.0)))
