@@ -80,6 +80,7 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
         link,
         loose_drives,
         notes,
+        obstacle_overlap_warnings,
         struck_cautions,
         stuck_drives,
         stuck_note,
@@ -97,6 +98,7 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
     yield from driven_assumptions(structure)
     yield from loose_drives(structure, linkage)
     yield from (f"Caution: {caution.text}" for caution in struck_cautions(structure))
+    yield from (f"Caution: {text}" for text in obstacle_overlap_warnings(structure, analysis.stages))
     yield from (f"Caution: {text}" for text in dict.fromkeys(one.text for one in section_doubts(structure)))
 
 

@@ -60,7 +60,7 @@ def trust_of(comparison: Comparison, structure: Structure) -> Trust:
         *fold_sentences(comparison, structure, hinges),
         *_order(comparison),
         *_elastic(comparison, hinges),
-        *_bending(comparison),
+        *bending_sentences(comparison, structure),
         *_contact(comparison, bool(structure.obstacles)),
         *direction_sentences(comparison),
         *joint_sentences(comparison.reference, structure),
@@ -195,8 +195,11 @@ def _elastic(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator
     yield text + ".", bool(rigid) and share > ELASTIC
 
 
-def _bending(comparison: Comparison) -> Iterator[tuple[str, bool]]:
+def bending_sentences(comparison: Comparison, structure: Structure) -> Iterator[tuple[str, bool]]:
     """Bending and vibration of the bars between hinges, which rigid bars do not have."""
+    model = comparison.candidate.name
+    rigid = f"The rigid bars of the {model} model do not contain this."
+    elastic = f"The {model} model has it in the joints between the hinges of the elastic member."
     for motion in comparison.reference.hinges:
         if motion.far is None or not motion.fold or motion.time.size < 5:
             continue
@@ -208,8 +211,8 @@ def _bending(comparison: Comparison) -> Iterator[tuple[str, bool]]:
         vibrates = f", with a vibration of up to ±{deg(max(swings))}" if len(swings) > 1 else ""
         yield (
             f"Member {motion.member} bends between the fold of hinge {motion.name} and its far end by up to "
-            f"{deg(reach)} ({percent(reach / most)} of the rotation){vibrates}. The rigid bars of the "
-            f"{comparison.candidate.name} model do not contain this.",
+            f"{deg(reach)} ({percent(reach / most)} of the rotation){vibrates}. "
+            f"{elastic if structure.members[motion.member].elastic else rigid}",
             False,
         )
 

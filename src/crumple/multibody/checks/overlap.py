@@ -21,6 +21,8 @@ LEAST = 1e-6
 """Overlap [m] that is rounding of the input."""
 LEAST_INSIDE = 1e-4
 """Depth [m] of a wall in an obstacle that is rounding of the input."""
+INSIDE = 1e-6
+"""The same of the middle of a wall, from which on shells refuse it [m]."""
 STATIONS = 33
 """Places along a member at which its gap to an obstacle is taken, then around the closest."""
 WALL_STEP, MOST_PARTS = 2e-3, 64
@@ -83,10 +85,15 @@ def obstacle_overlap_warnings(structure: Structure, stages: Sequence[Stage] = ()
             and (depth := _depth(structure, names[k], obstacle)) > LEAST_INSIDE
         }
         if deep:
+            # shells have the middle of the wall
+            beyond = any(
+                depth > structure.section_of(member).thickness / 2.0 + INSIDE for member, depth in deep.items()
+            )
+            refused = ", and shells refuse it" if beyond else ", as shells do"
             start, most = "starts" if len(deep) == 1 else "start", f"{1e3 * max(deep.values()):.2g} mm"
             found.append(
                 f"{named('Member', list(deep))} {start} up to {most} inside obstacle {name}: contact treats "
-                "this as zero gap, and shells refuse it; move the obstacle away."
+                f"this as zero gap{refused}; move the obstacle away."
             )
     return tuple(found)
 

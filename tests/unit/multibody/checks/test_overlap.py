@@ -85,6 +85,24 @@ def test_walls_inside_an_obstacle_are_reported(obstacle, depth):
     assert depth is None or found[0].startswith(f"Member bar starts up to {depth} inside obstacle block: ")
 
 
+@pytest.mark.parametrize(("share", "said"), [(0.4, "zero gap, as shells do;"), (0.6, "and shells refuse it;")])
+def test_shells_refuse_an_obstacle_beyond_the_middle_of_a_wall(share, said):
+    """A tube of 50 mm on a floor: its walls in shells are their middle surface."""
+    whole = Structure(
+        materials={"steel": STEEL},
+        sections={"tube": SQUARE},
+        nodes={"a": (0, 0, 0), "b": (1, 0, 0)},
+        members={"bar": {"nodes": ("a", "b"), "section": "tube", "material": "steel"}},
+        obstacles={"floor": {"type": "plane", "point": (0, 0, 0), "normal": (0, 0, 1)}},
+    )
+    section = whole.section_of("bar")
+    height = section.depth / 2.0 - share * section.thickness
+    floor = {"type": "plane", "point": (0, 0, -height), "normal": (0, 0, 1)}
+    sunk = Structure(**whole.model_dump() | {"obstacles": {"floor": floor}})
+    (text,) = obstacle_overlap_warnings(sunk)
+    assert said in text
+
+
 def test_obstacles_of_later_stages_are_not_there_at_the_start():
     structure = Structure(
         materials={"steel": STEEL},
