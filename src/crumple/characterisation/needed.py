@@ -19,11 +19,11 @@ from crumple.hinge.measured.place_hash import DIRECTIONS
 from crumple.section import AXES, Axis
 from crumple.structure import Structure, hinge_places, planar
 from crumple.structure.bending import bending_axis
-from crumple.structure.hinges.automatic import twists
 from crumple.structure.hinges.corner_laws import corner_name
 from crumple.structure.hinges.corners import corners, untreated
 from crumple.structure.hinges.places import has_clamped_law, member_hinge_places
 from crumple.structure.hinges.shares import about_axis
+from crumple.structure.hinges.spatial_hinges import is_closed
 from crumple.structure.hinges.stored_loads import stored_loads
 from crumple.structure.hinges.t_joints import t_places
 
@@ -90,7 +90,7 @@ def needed(structure: Structure, largest: float) -> tuple[Needed, ...]:
         for axis in axes:
             if not _beside_clamps(structure, name, axis):
                 add(Bending(section, material, axis, largest=largest), name)
-        if not planar(structure) and twists(structure, name):
+        if not planar(structure) and is_closed(section):
             add(Torsion(section, material, largest=largest), name)
         if any("crush" in stored_loads(place) for place in member_hinge_places(structure, name)):
             add(Crush(section, material), name)

@@ -117,10 +117,13 @@ TORSION: Registry[TorsionLawType] = Registry(
     {
         "plastic": "crumple.hinge.torsion.plastic:PlasticTorsion",
         "square_tube": "crumple.hinge.torsion.square_tube:SquareTubeTorsion",
+        "warping": "crumple.hinge.torsion.warping:WarpingTorsion",
     },
 )
 DEFAULT_TORSION = "plastic"
-"""Default law of a hinge in torsion."""
+"""Default law of a hinge in torsion, but for open sections."""
+OPEN_TORSION = "warping"
+"""That of open sections."""
 _Law = TypeVar("_Law")
 
 

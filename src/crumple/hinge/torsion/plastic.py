@@ -16,14 +16,11 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
-from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
-from crumple.hinge.rate import HingeRate, rate_factor
-from crumple.hinge.stop import Stop
+from crumple.hinge.law import Source, Trust, Validity
+from crumple.hinge.torsion.torque_curve import TorqueCurve
 from crumple.material import Material
-from crumple.numeric.arrays import Floats
 from crumple.registry.quantity import PositiveMoment
 from crumple.section import Section
 
@@ -34,18 +31,19 @@ SOURCE = Source(
     Trust.DERIVED,
     "an upper bound; walls that fold in shear carry less",
 )
+VALIDITY = Validity(
+    math.inf,
+    "plastic torque, constant over the twist",
+    (
+        "the torque falls if walls fold in shear: the energy of torsion is overestimated",
+        "no strain-rate factor: the strain rate of folds in torsion is not known",
+    ),
+)
 
 
 @dataclass(frozen=True)
-class PlasticTorsion:
-    """Torque at yield, the same in both senses.
-
-    Attributes
-    ----------
-    initial_torque, steady_torque
-        At the start and the end [N m].
-    twist, torque
-        Plastic twists [rad] and torques there [N m] of a metal that hardens; empty: constant.
+class PlasticTorsion(TorqueCurve):
+    """Torque at yield, the same in both senses; it rises if the metal hardens.
 
     References
     ----------
@@ -53,27 +51,9 @@ class PlasticTorsion:
     """
 
     name: ClassVar[str] = "plastic"
-    symmetric: ClassVar[bool] = True
-    straight: ClassVar[bool] = True
 
-    initial_torque: float
-    steady_torque: float
-    elastic_stiffness: float | None = None
-    validity: Validity = Validity(  # noqa: RUF009  (frozen)
-        math.inf,
-        "plastic torque, constant over the twist",
-        (
-            "the torque falls if walls fold in shear: the energy of torsion is overestimated",
-            "no strain-rate factor: the strain rate of folds in torsion is not known",
-        ),
-    )
-    rate: HingeRate | None = None
-    softening_variable: SofteningVariable = SofteningVariable.PEAK
+    validity: Validity = VALIDITY
     source: Source = SOURCE
-    jamming_angle: float | None = None
-    stop: Stop | None = None
-    twist: tuple[float, ...] = ()
-    torque: tuple[float, ...] = ()
 
     @classmethod
     def of(
@@ -114,29 +94,7 @@ class PlasticTorsion:
             plastic,
             float(hardened[-1]),
             elastic_stiffness=stiffness,
-            validity=replace(cls.validity, basis=f"plastic torque of {1e3 * length:.4g} mm that harden"),
+            validity=replace(VALIDITY, basis=f"plastic torque of {1e3 * length:.4g} mm that harden"),
             twist=tuple(twist.tolist()),
             torque=tuple(hardened.tolist()),
         )
-
-    @property
-    def title(self) -> str:
-        """One line for people."""
-        if self.twist:
-            return f"torque {self.initial_torque:.4g} N m, hardening to {self.steady_torque:.4g} N m"
-        return f"constant torque {self.steady_torque:.4g} N m"
-
-    def kinks(self, sense: int = 1) -> tuple[float, ...]:
-        """Twists where the slope jumps [rad]."""
-        return self.twist[1:]
-
-    def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
-        """Torque [N m] at a twist [rad]."""
-        twist = np.asarray(rotation, np.float64)
-        if not self.twist:
-            return np.full_like(twist, self.steady_torque)
-        return np.asarray(np.interp(twist, self.twist, self.torque), np.float64)
-
-    def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
-        """Ones."""
-        return rate_factor(self.rate, rotation_rate)

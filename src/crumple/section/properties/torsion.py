@@ -71,6 +71,12 @@ def torsion_of(skeleton: Skeleton, stretch: Floats, shear: Floats) -> Torsion:
     return Torsion(constant, skeleton.middle + pole, metal.product(warping, warping), across)
 
 
+def warping_of(skeleton: Skeleton) -> Floats:
+    """Warping of the nodes of walls without cells at unit twist per length about `middle`, (n,) [m^2]."""
+    paths, _ = _paths_and_loops(skeleton)
+    return np.asarray(-paths @ skeleton.sweep)
+
+
 def _paths_and_loops(skeleton: Skeleton) -> tuple[Floats, Floats]:
     """Which edges lead from node 0 to each node, and which make up each independent loop.
 

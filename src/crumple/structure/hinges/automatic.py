@@ -34,6 +34,7 @@ from crumple.structure.hinges.lengthening.held_runs import held_runs, pushed_run
 from crumple.structure.hinges.lengthening.stopped import stopped
 from crumple.structure.hinges.runs.candidates import Candidate, Strike, candidates_on
 from crumple.structure.hinges.runs.straight_runs import straight_run
+from crumple.structure.hinges.spatial_hinges import is_closed
 from crumple.structure.hinges.t_joints import t_joint_hinges, t_joint_zones
 from crumple.structure.keys.hinge_axes import AxialSlip, HingeAxes
 from crumple.structure.keys.member import AutomaticHinges, Hinge
@@ -145,12 +146,13 @@ def _struck_along(structure: StructureParts, member: str) -> bool:
 def twists(structure: StructureParts, member: str) -> bool:
     """Whether the automatic hinges of a member in space twist besides bending about both axes.
 
-    A closed section mostly yields in torsion before it bends about its strong axis.  An open one warps: its
-    plastic torque, which neglects that, is far too small.
+    A closed section mostly yields in torsion before it bends about its strong axis, an open one twists
+    wherever it can.  Spot welds between members close what is open.
     """
-    from crumple.section.wall_section import walls_of  # noqa: PLC0415  (only structures in space need walls)
-
-    return bool(walls_of(structure.section_of(member)).skeleton.cells)
+    if is_closed(structure.section_of(member)):
+        return True
+    welded = (welds.members for welds in structure.spot_welds.values())
+    return not any(member in members for members in welded if len(members) > 1)
 
 
 def _twists_elastically(structure: StructureParts, member: str) -> bool:

@@ -9,6 +9,7 @@ from typing import Literal, get_args
 
 from crumple.errors import InputError
 from crumple.hinge.measured.library import is_of_joint
+from crumple.hinge.torsion.warping import HeldEnds
 from crumple.section import Axis, half_fold_length
 from crumple.structure.hinges.corner.across import ACROSS
 from crumple.structure.hinges.corner_laws import MITRED, corner_laws, corner_name, turned_corner
@@ -46,6 +47,8 @@ class HingeShares:
         bar, else what is nearer to it than to the others.
     twisted
         Of the law of twist: one fold where joints twist besides, else as `stretch`.
+    span, held_ends
+        Length of the bar that twists, and which of its ends cannot warp.
     """
 
     bending: Mapping[Axis, float] = field(default_factory=dict)
@@ -53,6 +56,8 @@ class HingeShares:
     twist: float = 1.0
     stretch: float = 1.0
     twisted: float = 1.0
+    span: float = 1.0
+    held_ends: HeldEnds = "both"
 
 
 @dataclass(frozen=True)
@@ -135,6 +140,7 @@ def bar_shares(
             twist.get(place.name, 1.0),
             nearest[place.name],
             twisted[place.name],
+            *warping_span(structure, bar),
         )
         for place in places
     }, found
@@ -169,6 +175,25 @@ def between_joints(structure: StructureParts, bar: StraightRun) -> tuple[float, 
     """Ends of what lies between the rigid joints at the ends of a bar [m]."""
     first, last = (joint_reach(structure, *end) for end in bar.ends)
     return first, bar.length - last
+
+
+def warping_span(structure: StructureParts, bar: StraightRun) -> tuple[float, HeldEnds]:
+    """Length of a bar that twists [m], and which of its ends cannot warp: where anything else is at the node.
+
+    In shells such a node holds all walls of the end as one rigid body.
+    """
+    masses = {mass.node for mass in structure.masses.values()}
+    loaded = {load.node for load in structure.loads} | {impulse.node for impulse in structure.impulses}
+    held = [
+        node in masses
+        or node in loaded
+        or bool(structure.supports_at.get(node))
+        or len(structure.members_at[node]) > 1
+        for node in bar.nodes
+    ]
+    span = bar.length - sum(b - a for a, b in rigid_along(structure, bar))
+    ends: tuple[HeldEnds, ...] = ("none", "one", "both")
+    return span, ends[sum(held)]
 
 
 def _beside(

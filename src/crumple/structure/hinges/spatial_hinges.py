@@ -23,6 +23,7 @@ from crumple.hinge.measured.stored_crushing import StoredCrushing
 from crumple.hinge.record.record import Envelope
 from crumple.hinge.record.spatial_record import Coupling, Freedom, HingeComponent, SpatialHingeRecord
 from crumple.hinge.record.spatial_recording import scaled, spatial_record
+from crumple.hinge.registry import DEFAULT_TORSION, OPEN_TORSION
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import CircularTube, Section
@@ -83,9 +84,11 @@ def spatial_hinge_record(
     first = components[0].record
     if "x" in (keys.axes or ()):
         law = torsion if keys.twist is None else None
-        own = law or _torsion_law(keys.twist or Twist(), section, material, shares.twisted)
-        twist = _twist(own, first, metal, shares.twist)
-        if law is None and keys.twist is None and keys.coupling not in APART:
+        own, spring = law_of_twist(keys.twist, metal, shares)
+        if law is not None:
+            own, spring = law, _uniform_spring(metal, shares.twist)
+        twist = _like(first, own, spring)
+        if own.name == DEFAULT_TORSION and keys.twist is None and keys.coupling not in APART:
             power = ROUND_FLAT if isinstance(section, CircularTube) else FLAT
             twist = flattened(twist, [component.record for component in components], power)
         components.append(HingeComponent(Freedom.X, twist))
@@ -131,22 +134,45 @@ def _torsion_law(keys: Twist, section: Section, material: Material, length: floa
     return build_torsion_law(keys.law, section, material, length, **keys.own)
 
 
-def _twist(law: HingeLaw, first: HingeRecord, metal: tuple[Section, Material], length: float) -> HingeRecord:
+def law_of_twist(
+    keys: Twist | None, metal: tuple[Section, Material], shares: HingeShares
+) -> tuple[HingeLaw, float]:
+    """Law of a hinge's twist, and its spring [N m/rad].
+
+    Open walls that warp do so along all of the member: law and spring are shares of those of its length.
+    """
+    law = keys.law if keys else DEFAULT_TORSION if is_closed(metal[0]) else OPEN_TORSION
+    if law != OPEN_TORSION:
+        return _torsion_law(keys or Twist(), *metal, shares.twisted), _uniform_spring(metal, shares.twist)
+    given = {key: value for key, value in (keys.own if keys else {}).items() if value is not None}
+    whole = Twist(law=law, **{"span": shares.span, "held_ends": shares.held_ends} | given)
+    warping = _torsion_law(whole, *metal, shares.twist)
+    return warping, float(warping.elastic_stiffness or 0.0)
+
+
+def is_closed(section: Section) -> bool:
+    """Whether the walls of a section have a cell."""
+    from crumple.section.wall_section import walls_of  # noqa: PLC0415  (only structures in space need walls)
+
+    return bool(walls_of(section).skeleton.cells)
+
+
+def _uniform_spring(metal: tuple[Section, Material], length: float) -> float:
+    """Stiffness of a length [m] that twists alike all along [N m/rad]."""
     section, material = metal
-    elastic = material.shear_modulus * section.torsion_constant / length
-    return _like(first, law, elastic)
+    return material.shear_modulus * section.torsion_constant / length
 
 
 def twist_component(
-    first: HingeRecord, metal: tuple[Section, Material], length: float, *, firm: float = 1.0
+    first: HingeRecord, metal: tuple[Section, Material], shares: HingeShares, *, firm: float = 1.0
 ) -> HingeComponent:
-    """Twist of a length of member [m] beside a component of its bending, with its plastic torque.
+    """Twist of a length of member beside a component of its bending, with its law.
 
     Its damper is to its spring as that of the bending.  `firm`: factor on the torque, so that it only twists
     elastically.
     """
-    law = _torsion_law(Twist(), *metal, length)
-    record = scaled(_twist(law, first, metal, length), firm)
+    law, spring = law_of_twist(None, metal, shares)
+    record = scaled(_like(first, law, spring), firm)
     damping = first.viscous_damping / first.elastic_stiffness * record.elastic_stiffness
     return HingeComponent(Freedom.X, replace(record, viscous_damping=damping))
 

@@ -16,10 +16,12 @@ from crumple.structure.hinges.runs.straight_runs import StraightRun
 from crumple.structure.hinges.shares import (
     SAME_PLACE,
     AxisShares,
+    HingeShares,
     axes_of,
     between_joints,
     joint_lengths,
     joint_twists,
+    warping_span,
 )
 from crumple.structure.hinges.spatial_hinges import BENDING, twist_component
 from crumple.structure.parts import StructureParts
@@ -101,7 +103,8 @@ class _Beside:
         metal = self.structure.section_of(self.bar.first), self.structure.material_of(self.bar.first)
         firm = any(self._beyond_a_fold(axis, along) for axis in bending)
         first = next(iter(bending.values()))
-        return twist_component(first, metal, length, firm=FIRM if firm else 1.0)
+        shares = HingeShares({}, 1.0, length, length, length, *warping_span(self.structure, self.bar))
+        return twist_component(first, metal, shares, firm=FIRM if firm else 1.0)
 
     def record(self, axis: Axis, along: float, length: float) -> HingeRecord:
         """Record of a joint that stands for a length of the bar [m].
