@@ -27,7 +27,7 @@ from crumple.structure.hinges.corner.slip import with_corner_slip
 from crumple.structure.hinges.corner.springs import with_corner_springs
 from crumple.structure.hinges.corner_laws import corner_of, turned_corner
 from crumple.structure.hinges.joints.elastic_joints import elastic_joints
-from crumple.structure.hinges.joints.placed_hinge import PlacedHinge, direction_of
+from crumple.structure.hinges.joints.placed_hinge import PlacedHinge, direction_of, position_of
 from crumple.structure.hinges.places import (
     MADE,
     HingePlace,
@@ -217,7 +217,9 @@ def _placed(structure: StructureParts, place: HingePlace, shares: HingeShares) -
         member=place.member,
         station=place.station,
         axis=place.axis,
-        position=frame.position(place.station),
+        position=frame.position(place.station)
+        if axes is not None
+        else position_of(structure, place, spatial),
         direction=direction_of(structure, place) if axes is None else axes[AXIS_ROW[place.axis]],
         tributary_length=shares.bending.get(place.axis, 0.0),
         law=law,

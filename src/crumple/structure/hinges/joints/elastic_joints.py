@@ -10,7 +10,7 @@ from crumple.hinge import ConstantLaw, Coupling, Form, HingeComponent, HingeReco
 from crumple.section import Axis, half_fold_length
 from crumple.structure.hinges.corner_laws import corner_laws, corner_name
 from crumple.structure.hinges.elastic_members import yielding_record
-from crumple.structure.hinges.joints.placed_hinge import PlacedHinge, direction_of
+from crumple.structure.hinges.joints.placed_hinge import PlacedHinge, direction_of, position_of
 from crumple.structure.hinges.places import HingePlace, member_hinge_places
 from crumple.structure.hinges.runs.straight_runs import StraightRun
 from crumple.structure.hinges.shares import (
@@ -75,17 +75,18 @@ def _placed(
 ) -> PlacedHinge:
     coupling = Coupling.ELLIPSOID if structure.members[place.member].elastic else Coupling.NONE
     record = components[0].record
+    spatial = hinge.spatial_record(components, coupling=coupling) if len(components) > 1 else None
     return PlacedHinge(
         name=place.name,
         member=place.member,
         station=place.station,
         axis=place.axis,
-        position=structure.frame_of(place.member).position(place.station),
+        position=position_of(structure, place, spatial),
         direction=direction_of(structure, place),
         tributary_length=length,
         law=ConstantLaw(float(record.positive.moment.max())),
         record=record,
-        spatial=hinge.spatial_record(components, coupling=coupling) if len(components) > 1 else None,
+        spatial=spatial,
         plastic=False,
     )
 

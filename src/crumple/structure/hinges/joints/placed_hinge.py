@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from crumple.hinge import HingeLaw, HingeRecord, SpatialHingeRecord
+from crumple.hinge import Freedom, HingeLaw, HingeRecord, SpatialHingeRecord
 from crumple.numeric.arrays import Floats
-from crumple.section import Axis
+from crumple.section import Axis, walls_of
 from crumple.structure.hinges.places import HingePlace
 from crumple.structure.parts import StructureParts
 
@@ -61,6 +61,24 @@ class PlacedHinge:
     axes: Floats | None = None
     laws: Mapping[Axis, HingeLaw] = field(default_factory=dict)
     plastic: bool = True
+
+
+def position_of(structure: StructureParts, place: HingePlace, record: SpatialHingeRecord | None) -> Floats:
+    """Where a hinge lies at the start, global [m], shape (3,).
+
+    On the line of its member; one of an open section that twists, and keeps its length, lies beside it, on
+    the shear centre: forces through the centroid twist the member, and its twist moves the centroid aside.
+    """
+    frame = structure.frame_of(place.member)
+    freedoms = () if record is None else record.freedoms
+    position = frame.position(place.station)
+    if Freedom.X not in freedoms or Freedom.AXIAL in freedoms:
+        return position
+    walls = walls_of(structure.section_of(place.member))
+    if walls.skeleton.cells:
+        return position
+    y, z = walls.shear_centre
+    return np.asarray(position + y * frame.y + z * frame.z)
 
 
 def direction_of(structure: StructureParts, place: HingePlace) -> Floats:
