@@ -1,9 +1,8 @@
 """Members that carry more torque than their section, and whose hinges cannot twist.
 
 A hinge about bending axes alone carries any torque along its member.  The largest that two outputs in a row
-reach is compared with the plastic torque of a closed section.  An open section warps, and its plastic torque,
-which neglects that, says little.  A member with one hinge that twists carries no more than that takes: so do
-all elastic members of closed sections.
+reach is compared with the plastic torque of the member: of an open section with that of the warping that its
+ends hold.  A member with one hinge that twists carries no more than that takes: so do all elastic members.
 """
 
 from __future__ import annotations
@@ -12,7 +11,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from crumple.hinge import Freedom
+from crumple.hinge import Freedom, build_torsion_law
+from crumple.hinge.registry import OPEN_TORSION
 from crumple.multibody.answer.forces import on_second
 from crumple.multibody.answer.poses import SpatialPoses
 from crumple.multibody.answer.solved import Solved
@@ -21,14 +21,16 @@ from crumple.numeric.rotation import turned
 from crumple.result import Caution
 from crumple.structure import Structure
 from crumple.structure.hinges.automatic import twists
-from crumple.structure.hinges.spatial_hinges import interaction_of
+from crumple.structure.hinges.runs.bars import bar_of
+from crumple.structure.hinges.shares import warping_span
+from crumple.structure.hinges.spatial_hinges import interaction_of, is_closed
 
 ROUNDED = 1.0 - 1e-9
 """Share of the limit below which a moment is, whatever the rounding of its part along the member."""
 
 
 def torques_without_twist(structure: Structure, solved: Solved) -> Iterator[Caution]:
-    """One caution for all members of closed sections that would yield in torsion, and cannot.
+    """One caution for all members that would yield in torsion, and cannot.
 
     Parameters
     ----------
@@ -66,10 +68,18 @@ def _torques(structure: Structure, solved: Solved) -> Iterator[tuple[str, float,
     for i, body, member in hinged:
         if member in twisting or not twists(structure, member):
             continue
-        metal = structure.section_of(member), structure.material_of(member)
-        limit = interaction_of(*metal).plastic_torque
+        limit = _plastic_torque(structure, member)
         if most[i] < ROUNDED * limit:
             continue
         axis = turned(poses.quaternion(body), structure.frame_of(member).x)
         torque = np.abs(np.einsum("ni,ni->n", on_second(poses, i).moment, axis))
         yield member, float(np.minimum(torque[1:], torque[:-1]).max()), limit
+
+
+def _plastic_torque(structure: Structure, member: str) -> float:
+    """Torque at which a member yields along all of its length [N m]."""
+    metal = structure.section_of(member), structure.material_of(member)
+    if is_closed(metal[0]):
+        return interaction_of(*metal).plastic_torque
+    span, held_ends = warping_span(structure, bar_of(structure, member))
+    return build_torsion_law(OPEN_TORSION, *metal, span, held_ends=held_ends).steady_torque

@@ -8,8 +8,8 @@ Nothing is refused for them.
       w = F L^3/(3 E I_y) * k,    v = w I_yz/I_z,    k = I_y I_z/(I_y I_z - I_yz^2),
 
   but the joints of elastic members and the hinges bend about y and z apart: k = 1 and v = 0.
-- Shear centre: a force beside it twists the member.  Hinges of open sections do not twist, since the plastic
-  torque, which neglects warping, is far too small for them.
+- Shear centre: a force beside it twists the member.  Hinges of open sections that twist lie on the shear
+  centre, unless they also change their length: then forces at the centroid do not twist them.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from crumple.section.properties.properties import SectionProperties
 from crumple.section.wall_section import walls_of
 from crumple.structure.checks.unusual import Unusual
 from crumple.structure.hinges.asked import automatic_of
+from crumple.structure.hinges.places import member_hinge_places
 from crumple.structure.parts import StructureParts
 from crumple.structure.struck_places import struck_places
 from crumple.text.names import listed
@@ -90,18 +91,28 @@ def _beside(
     arms = {
         name: max((abs(_arm(f, centre)) for f in _across(structure, name)), default=0.0) for name in members
     }
-    beside = {name: arm for name, arm in arms.items() if arm > BESIDE * largest}
+    beside = {
+        name: arm
+        for name, arm in arms.items()
+        if arm > BESIDE * largest and not _twists_about_it(structure, name)
+    }
     if not beside:
         return
     are = "is" if len(beside) == 1 else "are"
     most = 1e3 * max(beside.values())
     text = (
         f"{_named(list(beside))} {are} of open section and loaded or struck {most:.3g} mm beside the shear "
-        "centre, which twists the walls. The multibody model does not twist open sections: solve with "
+        "centre, which twists the walls. The hinges there do not twist about this centre: solve with "
         "shells, or hold the member against twist."
     )
     for name, arm in beside.items():
         yield Unusual(f"member {name}", arm, BESIDE * largest, "m", text, "beside_shear_centre")
+
+
+def _twists_about_it(structure: StructureParts, name: str) -> bool:
+    """Whether the hinges of a member of an open section lie on its shear centre, and twist."""
+    keys = [place.keys for place in member_hinge_places(structure, name)]
+    return any("x" in (one.axes or ()) for one in keys) and all(one.axial is None for one in keys)
 
 
 def _arm(direction: Floats, centre: Floats) -> float:

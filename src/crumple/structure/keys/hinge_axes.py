@@ -123,7 +123,8 @@ class HingeAxes(Spec):
     laws: AxisLaws | None = None
     """Laws of single bending axes in place of `law`."""
     twist: Twist | None = None
-    """What it carries in twist, with x among the axes; without it a stored law, else the plastic torque."""
+    """What it carries in twist, with x among the axes; without it a stored law, else the plastic torque;
+    of open sections with the warping that the ends of the member hold."""
     axial: Annotated[AxialSlip | None, BeforeValidator(_yes, json_schema_input_type=bool | AxialSlip)] = None
     """Whether it also yields or folds along the member; `true`: folds by a stored law, else yields. Automatic
     hinges of a straight run between supports and of braced members do so unless this is `false`; those of

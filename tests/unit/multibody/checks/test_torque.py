@@ -72,6 +72,12 @@ def test_members_that_twist_at_a_hinge_and_elastic_ones_give_none():
     assert not found(crank(1.1 * TORQUE, axes=("y", "z")), members="elastic")[0]
 
 
-def test_an_open_section_gives_none():
+def test_an_open_section_carries_the_torque_of_its_walls_and_of_the_warping_that_its_ends_hold():
+    """Mid-lines b = 38.5, h = 77 mm: B_p = s_y t h (b^2/2 - x^2), x = b/2 - h/8."""
     channel = {"type": "channel", "width": 0.04, "depth": 0.08, "thickness": 0.003}
-    assert not found(crank(1.5 * TORQUE, channel, axes=("y", "z")))[0]
+    t, b, h = 0.003, 0.0385, 0.077
+    bimoment = YIELD * t * h * (b**2 / 2.0 - (b / 2.0 - h / 8.0) ** 2)
+    limit = (2.0 * b + h) * t**2 / 2.0 * YIELD / math.sqrt(3.0) + 2.0 * bimoment / 0.6
+    (caution,), _ = found(crank(1.2 * limit, channel, axes=("y", "z")))
+    assert caution.limit == pytest.approx(limit, rel=0.02)
+    assert not found(crank(0.9 * limit, channel, axes=("y", "z")))[0]

@@ -9,8 +9,9 @@ import numpy as np
 
 from crumple.hinge import Freedom, HingeLaw, HingeRecord, SpatialHingeRecord
 from crumple.numeric.arrays import Floats
-from crumple.section import Axis, walls_of
+from crumple.section import Axis
 from crumple.structure.hinges.places import HingePlace
+from crumple.structure.hinges.spatial_hinges import is_closed
 from crumple.structure.parts import StructureParts
 
 NEARER = np.sqrt(0.5) * (1.0 - 1e-9)
@@ -71,13 +72,12 @@ def position_of(structure: StructureParts, place: HingePlace, record: SpatialHin
     """
     frame = structure.frame_of(place.member)
     freedoms = () if record is None else record.freedoms
-    position = frame.position(place.station)
-    if Freedom.X not in freedoms or Freedom.AXIAL in freedoms:
+    position, section = frame.position(place.station), structure.section_of(place.member)
+    if Freedom.X not in freedoms or Freedom.AXIAL in freedoms or is_closed(section):
         return position
-    walls = walls_of(structure.section_of(place.member))
-    if walls.skeleton.cells:
-        return position
-    y, z = walls.shear_centre
+    from crumple.section.wall_section import walls_of  # noqa: PLC0415  (only open sections need walls)
+
+    y, z = walls_of(section).shear_centre
     return np.asarray(position + y * frame.y + z * frame.z)
 
 
