@@ -25,6 +25,8 @@ from crumple.section.wall_section import walls_of
 from crumple.structure.checks.unusual import Unusual
 from crumple.structure.hinges.asked import automatic_of
 from crumple.structure.hinges.places import member_hinge_places
+from crumple.structure.hinges.runs.bars import bar_of
+from crumple.structure.hinges.shares import twists_as_one
 from crumple.structure.parts import StructureParts
 from crumple.structure.struck_places import struck_places
 from crumple.text.names import listed
@@ -110,7 +112,9 @@ def _beside(
 
 
 def _twists_about_it(structure: StructureParts, name: str) -> bool:
-    """Whether the hinges of a member of an open section lie on its shear centre, and twist."""
+    """Whether a member of an open section twists about its shear centre: at a joint, or at its hinges."""
+    if twists_as_one(structure, bar_of(structure, name)):
+        return True
     keys = [place.keys for place in member_hinge_places(structure, name)]
     return any("x" in (one.axes or ()) for one in keys) and all(one.axial is None for one in keys)
 

@@ -33,6 +33,7 @@ from crumple.structure.hinges.lengthening.braced import braced
 from crumple.structure.hinges.lengthening.held_runs import held_runs, pushed_runs
 from crumple.structure.hinges.lengthening.stopped import stopped
 from crumple.structure.hinges.runs.candidates import Candidate, Strike, candidates_on
+from crumple.structure.hinges.runs.bars import welded_to_another
 from crumple.structure.hinges.runs.straight_runs import straight_run
 from crumple.structure.hinges.spatial_hinges import is_closed
 from crumple.structure.hinges.t_joints import t_joint_hinges, t_joint_zones
@@ -146,13 +147,11 @@ def _struck_along(structure: StructureParts, member: str) -> bool:
 def twists(structure: StructureParts, member: str) -> bool:
     """Whether the automatic hinges of a member in space twist besides bending about both axes.
 
-    A closed section mostly yields in torsion before it bends about its strong axis, an open one twists
-    wherever it can.  Spot welds between members close what is open.
+    A closed section mostly yields in torsion before it bends about its strong axis.  An open one twists all
+    along its member: elastic members have a joint for this, rigid ones their hinges.
     """
-    if is_closed(structure.section_of(member)):
-        return True
-    welded = (welds.members for welds in structure.spot_welds.values())
-    return not any(member in members for members in welded if len(members) > 1)
+    closed = is_closed(structure.section_of(member))
+    return closed or not (structure.members[member].elastic or welded_to_another(structure, member))
 
 
 def _twists_elastically(structure: StructureParts, member: str) -> bool:

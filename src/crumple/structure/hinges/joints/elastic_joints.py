@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass
+from itertools import pairwise
 
 from crumple import hinge
-from crumple.hinge import ConstantLaw, Coupling, Form, HingeComponent, HingeRecord
+from crumple.hinge import ConstantLaw, Coupling, Form, Freedom, HingeComponent, HingeRecord
 from crumple.section import Axis, half_fold_length
 from crumple.structure.hinges.corner_laws import corner_laws, corner_name
 from crumple.structure.hinges.elastic_members import yielding_record
@@ -21,6 +22,7 @@ from crumple.structure.hinges.shares import (
     between_joints,
     joint_lengths,
     joint_twists,
+    twists_as_one,
     warping_span,
 )
 from crumple.structure.hinges.spatial_hinges import BENDING, twist_component
@@ -67,6 +69,9 @@ def elastic_joints(
                 components.append(beside.twist(along, twisted[along], records))
             place = HingePlace(name, member, stretch.station(along), min(records), None, f"members.{member}")
             found.append(_placed(structure, place, components, by_axis[place.axis]))
+    if twists_as_one(structure, bar):
+        hinges = (bar.stretches[one.member].along(one.station) for one in own)
+        found.append(beside.twist_of_all(sorted([*(along for along, _ in lengths), *hinges])))
     return found
 
 
@@ -75,7 +80,8 @@ def _placed(
 ) -> PlacedHinge:
     coupling = Coupling.ELLIPSOID if structure.members[place.member].elastic else Coupling.NONE
     record = components[0].record
-    spatial = hinge.spatial_record(components, coupling=coupling) if len(components) > 1 else None
+    several = len(components) > 1 or components[0].freedom is Freedom.X
+    spatial = hinge.spatial_record(components, coupling=coupling) if several else None
     return PlacedHinge(
         name=place.name,
         member=place.member,
@@ -106,6 +112,21 @@ class _Beside:
         first = next(iter(bending.values()))
         shares = HingeShares({}, 1.0, length, length, length, *warping_span(self.structure, self.bar))
         return twist_component(first, metal, shares, firm=FIRM if firm else 1.0)
+
+    def twist_of_all(self, points: list[float]) -> PlacedHinge:
+        """Joint that only twists, for all of a bar of an open section, between those that bend [m]."""
+        structure, bar = self.structure, self.bar
+        gaps = [(a + b) / 2.0 for a, b in pairwise(points) if b - a > SAME_PLACE * bar.length]
+        # two may be equally near but for rounding: then the first
+        along = min(gaps, key=lambda at: (round(abs(at / bar.length - 0.5), 9), at))
+        span, held_ends = warping_span(structure, bar)
+        metal = structure.section_of(bar.first), structure.material_of(bar.first)
+        like = yielding_record(structure, bar.first, "y", span)
+        twist = twist_component(like, metal, HingeShares({}, 1.0, span, span, span, span, held_ends))
+        member = bar.member_at(along)
+        station = bar.stretches[member].station(along)
+        place = HingePlace(f"{member} twist", member, station, "y", None, f"members.{member}")
+        return _placed(structure, place, [twist], 0.0)
 
     def record(self, axis: Axis, along: float, length: float) -> HingeRecord:
         """Record of a joint that stands for a length of the bar [m].

@@ -41,3 +41,9 @@ def rigid_along(structure: StructureParts, bar: StraightRun) -> tuple[tuple[floa
             first, second = sorted(stretch.along(at) for at in part)
             found.append((first, second))
     return tuple(sorted(found))
+
+
+def welded_to_another(structure: StructureParts, member: str) -> bool:
+    """Whether spot welds join a member to another one: both together may be closed where each is open."""
+    welded = (welds.members for welds in structure.spot_welds.values())
+    return any(member in members for members in welded if len(members) > 1)
