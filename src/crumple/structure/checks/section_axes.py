@@ -8,8 +8,8 @@ Nothing is refused for them.
       w = F L^3/(3 E I_y) * k,    v = w I_yz/I_z,    k = I_y I_z/(I_y I_z - I_yz^2),
 
   but the joints of elastic members and the hinges bend about y and z apart: k = 1 and v = 0.
-- Shear centre: a force beside it twists the member.  Hinges of open sections that twist lie on the shear
-  centre, unless they also change their length: then forces at the centroid do not twist them.
+- Shear centre: a force beside it twists the member.  Elastic members of open sections twist about it, and so
+  do hinges of rigid ones, unless these also change their length: forces at the centroid do not twist those.
 """
 
 from __future__ import annotations

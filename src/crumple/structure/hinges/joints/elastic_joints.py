@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -11,8 +12,10 @@ from crumple.hinge import ConstantLaw, Coupling, Form, Freedom, HingeComponent, 
 from crumple.section import Axis, half_fold_length
 from crumple.structure.hinges.corner_laws import corner_laws, corner_name
 from crumple.structure.hinges.elastic_members import yielding_record
+from crumple.structure.hinges.flexibility import tributary_lengths
 from crumple.structure.hinges.joints.placed_hinge import PlacedHinge, direction_of, position_of
 from crumple.structure.hinges.places import HingePlace, member_hinge_places
+from crumple.structure.hinges.runs.bars import rigid_along
 from crumple.structure.hinges.runs.straight_runs import StraightRun
 from crumple.structure.hinges.shares import (
     SAME_PLACE,
@@ -71,7 +74,7 @@ def elastic_joints(
             found.append(_placed(structure, place, components, by_axis[place.axis]))
     if twists_as_one(structure, bar):
         hinges = (bar.stretches[one.member].along(one.station) for one in own)
-        found.append(beside.twist_of_all(sorted([*(along for along, _ in lengths), *hinges])))
+        found.extend(beside.twist_of_all(sorted([*(along for along, _ in lengths), *hinges])))
     return found
 
 
@@ -113,20 +116,29 @@ class _Beside:
         shares = HingeShares({}, 1.0, length, length, length, *warping_span(self.structure, self.bar))
         return twist_component(first, metal, shares, firm=FIRM if firm else 1.0)
 
-    def twist_of_all(self, points: list[float]) -> PlacedHinge:
-        """Joint that only twists, for all of a bar of an open section, between those that bend [m]."""
+    def twist_of_all(self, points: list[float]) -> Iterator[PlacedHinge]:
+        """Joints that only twist, of a bar of an open section; each has its part of the length of the bar.
+
+        They lie in the middle of the bar and at its ends, between the points at which it bends [m].
+        """
         structure, bar = self.structure, self.bar
         gaps = [(a + b) / 2.0 for a, b in pairwise(points) if b - a > SAME_PLACE * bar.length]
         # two may be equally near but for rounding: then the first
-        along = min(gaps, key=lambda at: (round(abs(at / bar.length - 0.5), 9), at))
+        middle = min(gaps, key=lambda at: (round(abs(at / bar.length - 0.5), 9), at))
+        places = sorted({gaps[0], middle, gaps[-1]})
+        lengths = tributary_lengths(places, bar.length, rigid_along(structure, bar))
         span, held_ends = warping_span(structure, bar)
         metal = structure.section_of(bar.first), structure.material_of(bar.first)
         like = yielding_record(structure, bar.first, "y", span)
-        twist = twist_component(like, metal, HingeShares({}, 1.0, span, span, span, span, held_ends))
-        member = bar.member_at(along)
-        station = bar.stretches[member].station(along)
-        place = HingePlace(f"{member} twist", member, station, "y", None, f"members.{member}")
-        return _placed(structure, place, [twist], 0.0)
+        for i, (along, length) in enumerate(zip(places, lengths, strict=True), 1):
+            twist = twist_component(
+                like, metal, HingeShares({}, 1.0, length, length, length, span, held_ends)
+            )
+            member = bar.member_at(along)
+            station = bar.stretches[member].station(along)
+            # no name of the input has a blank
+            place = HingePlace(f"{member} twist {i}", member, station, "y", None, f"members.{member}")
+            yield _placed(structure, place, [twist], 0.0)
 
     def record(self, axis: Axis, along: float, length: float) -> HingeRecord:
         """Record of a joint that stands for a length of the bar [m].

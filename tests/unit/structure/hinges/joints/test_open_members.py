@@ -15,10 +15,11 @@ SPAN = 0.6 - 0.025
 NODES = {"a": (0.0, 0.0, 0.0), "b": (0.6, 0.0, 0.0), "c": (0.6, 0.4, 0.0)}
 
 
-def crank(**parts):
+def crank(elastic=6, **parts):
     """A clamped channel along x with an arm across its end, in space."""
-    post = {"nodes": ("a", "b"), "section": "post", "material": "steel", "elastic": 6, "up": (0.0, 0.0, 1.0)}
-    arm = {"nodes": ("b", "c"), "section": "tube", "material": "steel", "elastic": 6}
+    alike = {"material": "steel", "elastic": elastic}
+    post = alike | {"nodes": ("a", "b"), "section": "post", "up": (0.0, 0.0, 1.0)}
+    arm = alike | {"nodes": ("b", "c"), "section": "tube"}
     given = {
         "sections": {"post": CHANNEL, "tube": TUBE},
         "masses": {"m": {"node": "c", "mass": 20.0}},
@@ -37,11 +38,13 @@ def twisting(whole):
     ]
 
 
-def test_hinges_that_twist_lie_on_the_shear_centre():
-    whole = crank()
+@pytest.mark.parametrize("elastic", [0, 6])
+def test_points_that_twist_lie_on_the_shear_centre(elastic):
+    whole = crank(elastic)
     centre, frame = whole.section_of("post").shear_centre, whole.frame_of("post")
     hinges = twisting(whole)
-    assert hinges
+    assert len(hinges) == (3 if elastic else 2)
+    assert {len(hinge.spatial.freedoms) for hinge in hinges} == {1 if elastic else 3}
     for hinge in hinges:
         beside = hinge.position - frame.position(hinge.station)
         assert beside @ frame.y == pytest.approx(centre[0], abs=1e-12)
@@ -50,23 +53,30 @@ def test_hinges_that_twist_lie_on_the_shear_centre():
 
 
 def test_hinges_that_change_their_length_stay_on_the_line_of_the_member():
-    whole = crank(hinges={"axial": True})
+    whole = crank(0, hinges={"axial": True})
+    assert twisting(whole)
     for hinge in twisting(whole):
         assert hinge.position == pytest.approx(whole.frame_of("post").position(hinge.station))
 
 
-def test_the_hinges_of_a_member_have_its_stiffness_and_its_torque():
-    whole = crank()
+@pytest.mark.parametrize("elastic", [0, 6])
+def test_together_they_have_the_stiffness_and_the_torque_of_the_member(elastic):
+    whole = crank(elastic)
     metal = whole.section_of("post"), whole.material_of("post")
-    law = build_torsion_law("warping", *metal, SPAN)
+    span = warping_span(whole, bar_of(whole, "post"))[0]
+    law = build_torsion_law("warping", *metal, span)
     records = [
         component.record
         for hinge in twisting(whole)
         for component in hinge.spatial.components
         if component.freedom is Freedom.X
     ]
-    assert 1.0 / sum(1.0 / one.elastic_stiffness for one in records) == pytest.approx(law.elastic_stiffness)
-    assert {float(one.positive.moment.max()) for one in records} == {pytest.approx(law.steady_torque)}
+    if elastic:
+        springs = [one.elastic_stiffness for one in records]
+        assert 1.0 / sum(1.0 / spring for spring in springs) == pytest.approx(law.elastic_stiffness)
+    assert [one.positive.moment.max() for one in records] == [pytest.approx(law.steady_torque)] * len(records)
+    twists = [one.positive.rotation[one.positive.moment.argmax()] for one in records]
+    assert sum(twists) == pytest.approx(law.twist[1], rel=0.01)
 
 
 @pytest.mark.parametrize(
