@@ -147,8 +147,5 @@ def _with_planes(folds: list[Fold], own: Sections, clear: float) -> list[Fold]:
 
 
 def _turned(fold: Fold, own: Sections) -> float:
-    """Largest angle between the two planes over time [rad]."""
-    first, last = fold.planes
-    start = float(own.start_normals[first] @ own.start_normals[last])
-    cosine = np.einsum("ti,ti->t", own.normals[:, first], own.normals[:, last]) * np.sign(start or 1.0)
-    return float(np.arccos(np.clip(cosine, -1.0, 1.0)).max())
+    """Largest rotation of one plane relative to the other over time [rad]."""
+    return float(own.bend(*fold.planes).max())

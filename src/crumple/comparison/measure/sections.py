@@ -4,12 +4,13 @@ A ring is the set of points of one member at one station.  Its plane is the leas
 displaced points: the eigenvector of their scatter matrix with the smallest eigenvalue, with the sign given by
 the sense of the outline.  The rotation of a section about an axis is the angle between its normal now and at
 the start, both projected along the axis, continued without a jump at half a turn.  The rotation of one
-section relative to another is the same as seen from the first one: everything is rotated back by the
-smallest rotation that restores its normal, so that a part that rotates as a whole shows no rotation.
+section relative to another is the same as seen from the first one: everything is rotated back as its ring has
+turned, by the smallest rotation that restores its normal and by the mean turn of its points about that, so
+that a part that rotates as a whole shows no rotation.  (Rings of a mitre lie oblique: the normals of two rings
+then are not parallel, and a turn about the first one moves the second.)
 
 Limits: a section that is flattened to a line has no plane; its angle is then noise.  The rings within a fold
-warp, so a relative rotation is measured between rings on both sides of it.  Twist about the member of the
-section that carries the axis is not followed.
+warp, so a relative rotation is measured between rings on both sides of it.
 """
 
 from __future__ import annotations
@@ -45,6 +46,9 @@ class Sections:
         Means of the points [m] over time, (n_states, n_rings, 3), and at the start, (n_rings, 3).
     normals, start_normals
         Unit normals over time, (n_states, n_rings, 3), and at the start, (n_rings, 3).
+    spins
+        Mean turn of the points about the start normal beside the smallest rotation that restores it [rad],
+        (n_states, n_rings).
     """
 
     member: str
@@ -54,6 +58,7 @@ class Sections:
     start_centres: Floats
     normals: Floats
     start_normals: Floats
+    spins: Floats
 
     def rotation(self, axis: Floats) -> Floats:
         """Rotation of every section about a fixed axis since the start [rad], (n_states, n_rings).
@@ -88,17 +93,20 @@ class Sections:
 
     def bend_axes(self, first: int, last: int) -> Floats:
         """Unit vectors about which one section has rotated relative to another; zero at rest, (n, 3)."""
-        sign = float(np.sign(self.start_normals[first] @ self.start_normals[last]) or 1.0)
-        across = sign * np.cross(self.normals[:, first], self.normals[:, last])
+        start = self.start_normals[last]
+        # the normal that the last section would have if it had followed the first one
+        followed = _swung(
+            _spun(np.broadcast_to(start, self.normals[:, first].shape), self.start_normals[first], self.spins[:, first]),
+            self.start_normals[first],
+            self.normals[:, first],
+        )
+        across = np.cross(followed, self.normals[:, last])
         return np.asarray(across / np.maximum(np.linalg.norm(across, axis=1), SMALL)[:, None])
 
     def seen_from(self, ring: int, vectors: Floats) -> Floats:
-        """Vectors over time as seen from one section: rotated back with its normal, (n_states, 3)."""
+        """Vectors over time as seen from one section: rotated back with its ring, (n_states, 3)."""
         now, start = self.normals[:, ring], self.start_normals[ring]
-        middle = now + start
-        along = np.einsum("ti,ti->t", middle, vectors) / np.maximum(1.0 + now @ start, SMALL)
-        back = 2.0 * np.einsum("ti,ti->t", now, vectors)
-        return np.asarray(vectors - along[:, None] * middle + back[:, None] * start)
+        return _spun(_swung_back(vectors, start, now), start, -self.spins[:, ring])
 
     def nearest(self, station: float) -> int:
         """Index of the ring nearest to a station [m]."""
@@ -122,6 +130,29 @@ class Sections:
         """Angle of the line between the end sections relative to one of them [rad], (n_states,)."""
         line = self.centres[:, -1] - self.centres[:, 0]
         return _opening(self.start_centres[-1] - self.start_centres[0], self.seen_from(ring, line))
+
+
+def _swung(vectors: Floats, start: Floats, now: Floats) -> Floats:
+    """Vectors turned by the smallest rotations that carry one direction (3,) to others, (n, 3) each."""
+    middle = now + start
+    along = np.einsum("ti,ti->t", middle, vectors) / np.maximum(1.0 + now @ start, SMALL)
+    return np.asarray(vectors - along[:, None] * middle + 2.0 * (vectors @ start)[:, None] * now)
+
+
+def _swung_back(vectors: Floats, start: Floats, now: Floats) -> Floats:
+    """Vectors turned back by these rotations, (n, 3)."""
+    middle = now + start
+    along = np.einsum("ti,ti->t", middle, vectors) / np.maximum(1.0 + now @ start, SMALL)
+    back = 2.0 * np.einsum("ti,ti->t", now, vectors)
+    return np.asarray(vectors - along[:, None] * middle + back[:, None] * start)
+
+
+def _spun(vectors: Floats, about: Floats, angle: Floats) -> Floats:
+    """Vectors (n, 3) turned about a direction (3,) by angles (n,)."""
+    along = (vectors @ about)[:, None] * about
+    return np.asarray(
+        along + np.cos(angle)[:, None] * (vectors - along) + np.sin(angle)[:, None] * np.cross(about, vectors)
+    )
 
 
 def _opening(start: Floats, now: Floats) -> Floats:
@@ -162,6 +193,10 @@ def sections_of(states: States, member: str) -> Sections | None:
         return None
     planes = [_planes(states.points[None, ring] + states.displacement[:, ring]) for ring in rings]
     start = [_planes(states.points[None, ring]) for ring in rings]
+    spins = [
+        _spins(states.points[ring], states.points[ring] + states.displacement[:, ring], first[0], now)
+        for ring, (_, first), (_, now) in zip(rings, start, planes, strict=True)
+    ]
     return Sections(
         member=member,
         stations=np.array([float(states.station[ring].mean()) for ring in rings]),
@@ -170,7 +205,18 @@ def sections_of(states: States, member: str) -> Sections | None:
         normals=np.stack([normal for _, normal in planes], axis=1),
         start_centres=np.concatenate([centre for centre, _ in start]),
         start_normals=np.concatenate([normal for _, normal in start]),
+        spins=np.stack(spins, axis=1),
     )
+
+
+def _spins(start: Floats, now: Floats, normal: Floats, normals: Floats) -> Floats:
+    """Mean turn of points (n, 3) about their normal (3,), once that is swung back from (n_states, 3); [rad]."""
+    arms = start - start.mean(axis=0)
+    arms = arms - np.outer(arms @ normal, normal)
+    moved = now - now.mean(axis=1)[:, None]
+    swung = np.stack([_swung_back(point, normal, normals) for point in np.swapaxes(moved, 0, 1)], axis=1)
+    across = np.cross(normal, arms)
+    return np.asarray(np.arctan2(np.einsum("tpi,pi->t", swung, across), np.einsum("tpi,pi->t", swung, arms)))
 
 
 def _planes(points: Floats) -> tuple[Floats, Floats]:

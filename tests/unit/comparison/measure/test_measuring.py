@@ -45,10 +45,10 @@ def tumbling(states, axis, largest=2.0):
     return replace(states, displacement=np.array(places) - states.points)
 
 
-def test_a_relative_rotation_moves_with_the_section_that_carries_it():
-    # about any axis across the member at the start; twist about the member is not followed
+@pytest.mark.parametrize("axis", [[0.0, 0.6, 0.8], [0.8, 0.0, 0.6]])
+def test_a_relative_rotation_moves_with_the_section_that_carries_it(axis):
     still = sections_of(one_fold(0.5), "tube")
-    moving = sections_of(tumbling(one_fold(0.5), [0.0, 0.6, 0.8]), "tube")
+    moving = sections_of(tumbling(one_fold(0.5), axis), "tube")
     last = len(still.stations) - 1
     assert np.allclose(
         still.relative_rotation(MINUS_Y, 0, last), still.rotation(MINUS_Y)[:, -1], rtol=0.0, atol=1e-9
@@ -62,9 +62,35 @@ def test_a_relative_rotation_moves_with_the_section_that_carries_it():
     assert not np.allclose(turned[:, last] - turned[:, 0], angle_over_time(TIMES, 0.5), atol=1e-2)
 
 
+def mitred(states, slope=1.0):
+    """The same shapes with the last ring oblique, as at a corner of 90 degrees."""
+    points = states.points.copy()
+    end = states.station == states.station.max()
+    points[end, 0] += slope * (points[end, 2] - points[end, 2].mean())
+    return replace(states, points=points)
+
+
+def test_a_member_with_an_oblique_end_that_moves_as_one_does_not_bend():
+    """A turn about one normal moves another that is not parallel to it: here by up to 40 degrees."""
+    states = tumbling(mitred(folded_states(TIMES, [(0.01, 0.04, 0.0 * TIMES)])), [1.0, 0.2, 0.0], 1.0)
+    own = sections_of(states, "tube")
+    last = len(own.stations) - 1
+    for first, second in ((0, last), (last, 0)):
+        assert np.allclose(own.bend(first, second), 0.0, atol=1e-7)
+        assert np.allclose(own.relative_rotation(MINUS_Y, first, second), 0.0, atol=1e-7)
+
+
 def test_more_than_half_a_turn_is_counted_on():
     own = sections_of(one_fold(largest=4.0), "tube")
     assert own.rotation(MINUS_Y)[-1, -1] == pytest.approx(4.0)
+
+
+def test_the_axis_of_a_bend_at_an_oblique_end_is_that_of_the_bend():
+    still = mitred(folded_states(TIMES, [(0.01, 0.04, angle_over_time(TIMES, 0.5))]))
+    own = sections_of(still, "tube")
+    last = len(own.stations) - 1
+    assert own.bend(0, last)[-1] == pytest.approx(own.rotation(MINUS_Y)[-1, last], rel=1e-3)
+    np.testing.assert_allclose(own.bend_axes(0, last)[-1], MINUS_Y, atol=1e-6)
 
 
 def test_the_chord_lags_behind_the_section_by_the_place_of_the_fold():
