@@ -96,7 +96,11 @@ class Sections:
         start = self.start_normals[last]
         # the normal that the last section would have if it had followed the first one
         followed = _swung(
-            _spun(np.broadcast_to(start, self.normals[:, first].shape), self.start_normals[first], self.spins[:, first]),
+            _spun(
+                np.broadcast_to(start, self.normals[:, first].shape),
+                self.start_normals[first],
+                self.spins[:, first],
+            ),
             self.start_normals[first],
             self.normals[:, first],
         )

@@ -87,7 +87,8 @@ def obstacle_overlap_warnings(structure: Structure, stages: Sequence[Stage] = ()
         if deep:
             # shells have the middle of the wall
             beyond = any(
-                depth > structure.section_of(member).thickness / 2.0 + INSIDE for member, depth in deep.items()
+                depth > structure.section_of(member).thickness / 2.0 + INSIDE
+                for member, depth in deep.items()
             )
             refused = ", and shells refuse it" if beyond else ", as shells do"
             start, most = "starts" if len(deep) == 1 else "start", f"{1e3 * max(deep.values()):.2g} mm"

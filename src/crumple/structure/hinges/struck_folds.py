@@ -152,7 +152,9 @@ def _carried(structure: StructureParts, bent: _Bent, end: HeldEnd) -> float:
         # pressed towards the other member, the run turns away from it at the corner
         opens = float(leaving(structure, other, node) @ bent.outwards) > 0.0
         return _most(structure, corner.first, corner.axis, keys, -corner.sense if opens else corner.sense)
-    return sum(_beside_a_joint(structure, name, bent.about) for name in _held_beyond(structure, end.run, node))
+    return sum(
+        _beside_a_joint(structure, name, bent.about) for name in _held_beyond(structure, end.run, node)
+    )
 
 
 def _held_beyond(structure: StructureParts, run: StraightRun, node: str) -> Iterator[str]:

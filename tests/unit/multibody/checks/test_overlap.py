@@ -85,7 +85,9 @@ def test_walls_inside_an_obstacle_are_reported(obstacle, depth):
     assert depth is None or found[0].startswith(f"Member bar starts up to {depth} inside obstacle block: ")
 
 
-@pytest.mark.parametrize(("share", "said"), [(0.4, "zero gap, as shells do;"), (0.6, "and shells refuse it;")])
+@pytest.mark.parametrize(
+    ("share", "said"), [(0.4, "zero gap, as shells do;"), (0.6, "and shells refuse it;")]
+)
 def test_shells_refuse_an_obstacle_beyond_the_middle_of_a_wall(share, said):
     """A tube of 50 mm on a floor: its walls in shells are their middle surface."""
     whole = Structure(

@@ -147,7 +147,9 @@ def _candidates(
         yield replace(_candidate(run, run.nodes[1], last), near=near)
     inner = [(str(i), at) for i, at in enumerate(between, 1)]
     taken = [first, *between, last]
-    folding = {node for node, at in run.between.items() if any(abs(at - place) <= half for _, place in pressed)}
+    folding = {
+        node for node, at in run.between.items() if any(abs(at - place) <= half for _, place in pressed)
+    }
     divided = [
         (node, at - ASIDE * half)
         for node, at in run.between.items()
