@@ -22,8 +22,8 @@ from crumple.structure.bending import bending_axis
 from crumple.structure.hinges.corner_laws import corner_name
 from crumple.structure.hinges.corners import corners, untreated
 from crumple.structure.hinges.places import has_clamped_law, member_hinge_places
+from crumple.structure.hinges.runs.bars import is_closed
 from crumple.structure.hinges.shares import about_axis
-from crumple.structure.hinges.spatial_hinges import is_closed
 from crumple.structure.hinges.stored_loads import stored_loads
 from crumple.structure.hinges.t_joints import t_places
 

@@ -89,7 +89,7 @@ class WarpingTorsion(TorqueCurve):
         for name, value in (("length", length), ("span", span)):
             if not (math.isfinite(value) and value > 0.0):
                 raise InputError(Problem(f"the {name} must be positive", f"{value:g}", "> 0", "", name))
-        from crumple.section import plastic_interaction, walls_of  # noqa: PLC0415  (only this law needs walls)
+        from crumple.section import plastic_interaction, walls_of  # noqa: PLC0415  (needs walls)
         from crumple.section.properties.plastic_bimoment import plastic_bimoment  # noqa: PLC0415
 
         walls = walls_of(section)

@@ -17,6 +17,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
+from crumple.hinge import Freedom
 from crumple.multibody.answer.forces import on_second
 from crumple.multibody.answer.poses import SpatialHistory, SpatialPoses
 from crumple.multibody.answer.solved import Solved
@@ -30,6 +31,7 @@ from crumple.structure import Structure, placed_hinges
 from crumple.structure.hinges.asked import automatic_of
 from crumple.structure.hinges.elastic_members import folds_from
 from crumple.structure.hinges.joint_reach import joint_reach
+from crumple.structure.hinges.joints.placed_hinge import PlacedHinge
 from crumple.structure.hinges.spatial_hinges import interaction_fit_of
 from crumple.units import format_quantity
 
@@ -163,12 +165,17 @@ def _is_loaded(structure: Structure, node: str) -> bool:
     return any(at.get(node) for at in others) or any(load.node == node for load in structure.loads)
 
 
+def _bends(joint: PlacedHinge) -> bool:
+    """Whether a point is an elastic joint that bends: some only twist."""
+    return not joint.plastic and (joint.spatial is None or joint.spatial.freedoms != (Freedom.X,))
+
+
 def folds_between(structure: Structure, solved: Solved) -> Iterator[Caution]:
     """Members that yield between their hinges by more than a fold takes before it softens.
 
     The rotation is at least the energy of a joint over its largest moment.
     """
-    joints = {(one.member, one.station): one for one in placed_hinges(structure) if not one.plastic}
+    joints = {(one.member, one.station): one for one in placed_hinges(structure) if _bends(one)}
     turned: dict[str, tuple[float, float]] = {}
     for (member, station), energy in solved.spread.items():
         joint = joints.get((member, station))

@@ -21,9 +21,9 @@ from crumple.numeric.rotation import turned
 from crumple.result import Caution
 from crumple.structure import Structure
 from crumple.structure.hinges.automatic import twists
-from crumple.structure.hinges.runs.bars import bar_of
+from crumple.structure.hinges.runs.bars import bar_of, is_closed
 from crumple.structure.hinges.shares import warping_span
-from crumple.structure.hinges.spatial_hinges import interaction_of, is_closed
+from crumple.structure.hinges.spatial_hinges import interaction_of
 
 ROUNDED = 1.0 - 1e-9
 """Share of the limit below which a moment is, whatever the rounding of its part along the member."""

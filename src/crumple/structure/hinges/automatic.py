@@ -32,10 +32,9 @@ from crumple.structure.hinges.law_choice import UNKNOWN, Surroundings, component
 from crumple.structure.hinges.lengthening.braced import braced
 from crumple.structure.hinges.lengthening.held_runs import held_runs, pushed_runs
 from crumple.structure.hinges.lengthening.stopped import stopped
+from crumple.structure.hinges.runs.bars import is_closed, welded_to_another
 from crumple.structure.hinges.runs.candidates import Candidate, Strike, candidates_on
-from crumple.structure.hinges.runs.bars import welded_to_another
 from crumple.structure.hinges.runs.straight_runs import straight_run
-from crumple.structure.hinges.spatial_hinges import is_closed
 from crumple.structure.hinges.t_joints import t_joint_hinges, t_joint_zones
 from crumple.structure.keys.hinge_axes import AxialSlip, HingeAxes
 from crumple.structure.keys.member import AutomaticHinges, Hinge

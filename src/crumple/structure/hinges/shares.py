@@ -18,10 +18,9 @@ from crumple.structure.hinges.elastic_members import joint_stations, segments_of
 from crumple.structure.hinges.flexibility import flexibility, tributary_lengths
 from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.places import HingePlace, law_of, law_spec, member_hinge_places
-from crumple.structure.hinges.runs.bars import rigid_along, welded_to_another
+from crumple.structure.hinges.runs.bars import is_closed, rigid_along, welded_to_another
 from crumple.structure.hinges.runs.ends import SAME_DIRECTION
 from crumple.structure.hinges.runs.straight_runs import StraightRun
-from crumple.structure.hinges.spatial_hinges import is_closed
 from crumple.structure.keys.motion import FREEDOMS
 from crumple.structure.parts import StructureParts
 
@@ -184,11 +183,13 @@ def twists_as_one(structure: StructureParts, bar: StraightRun) -> bool:
     Its twist goes with warping, which is a matter of all of its length: a hinge that bends at one end must
     not take it all, as it would on the interaction of its section.
     """
-    if not segments_of(structure, bar) or is_closed(structure.section_of(bar.first)):
+    if not segments_of(structure, bar):
         return False
     keys = [place.keys for place in places_along(structure, bar)]
     several = any(one.axes for one in keys) and not any("x" in (one.axes or ()) for one in keys)
-    return several and not any(welded_to_another(structure, name) for name in bar.stretches)
+    if not several or is_closed(structure.section_of(bar.first)):
+        return False
+    return not any(welded_to_another(structure, name) for name in bar.stretches)
 
 
 def warping_span(structure: StructureParts, bar: StraightRun) -> tuple[float, HeldEnds]:

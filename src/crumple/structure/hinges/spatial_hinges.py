@@ -27,6 +27,7 @@ from crumple.hinge.registry import DEFAULT_TORSION, OPEN_TORSION
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import CircularTube, Section
+from crumple.structure.hinges.runs.bars import is_closed
 from crumple.structure.keys.hinge_axes import AxialSlip, BendingAxis, HingeAxes, Twist
 from crumple.structure.remembered import remembered
 
@@ -148,13 +149,6 @@ def law_of_twist(
     whole = Twist(law=law, **{"span": shares.span, "held_ends": shares.held_ends} | given)
     warping = _torsion_law(whole, *metal, shares.twist)
     return warping, float(warping.elastic_stiffness or 0.0)
-
-
-def is_closed(section: Section) -> bool:
-    """Whether the walls of a section have a cell."""
-    from crumple.section.wall_section import walls_of  # noqa: PLC0415  (only structures in space need walls)
-
-    return bool(walls_of(section).skeleton.cells)
 
 
 def _uniform_spring(metal: tuple[Section, Material], length: float) -> float:

@@ -11,7 +11,7 @@ from crumple.hinge import Freedom, HingeLaw, HingeRecord, SpatialHingeRecord
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis
 from crumple.structure.hinges.places import HingePlace
-from crumple.structure.hinges.spatial_hinges import is_closed
+from crumple.structure.hinges.runs.bars import is_closed
 from crumple.structure.parts import StructureParts
 
 NEARER = np.sqrt(0.5) * (1.0 - 1e-9)

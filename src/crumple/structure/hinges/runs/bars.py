@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from crumple.section import Section
 from crumple.structure.hinges.joint_reach import unbent_parts
 from crumple.structure.hinges.runs.straight_runs import StraightRun, Stretch, straight_run
 from crumple.structure.parts import StructureParts
@@ -47,3 +48,10 @@ def welded_to_another(structure: StructureParts, member: str) -> bool:
     """Whether spot welds join a member to another one: both together may be closed where each is open."""
     welded = (welds.members for welds in structure.spot_welds.values())
     return any(member in members for members in welded if len(members) > 1)
+
+
+def is_closed(section: Section) -> bool:
+    """Whether the walls of a section have a cell."""
+    from crumple.section.wall_section import walls_of  # noqa: PLC0415  (only structures in space need walls)
+
+    return bool(walls_of(section).skeleton.cells)
