@@ -6,8 +6,8 @@ the sense of the outline.  The rotation of a section about an axis is the angle 
 the start, both projected along the axis, continued without a jump at half a turn.  The rotation of one
 section relative to another is the same as seen from the first one: everything is rotated back as its ring has
 turned, by the smallest rotation that restores its normal and by the mean turn of its points about that, so
-that a part that rotates as a whole shows no rotation.  (Rings of a mitre lie oblique: the normals of two rings
-then are not parallel, and a turn about the first one moves the second.)
+that a part that rotates as a whole shows no rotation.  (Rings of a mitre lie oblique: the normals of two
+rings then are not parallel, and a turn about the first one moves the second.)
 
 Limits: a section that is flattened to a line has no plane; its angle is then noise.  The rings within a fold
 warp, so a relative rotation is measured between rings on both sides of it.
@@ -214,7 +214,7 @@ def sections_of(states: States, member: str) -> Sections | None:
 
 
 def _spins(start: Floats, now: Floats, normal: Floats, normals: Floats) -> Floats:
-    """Mean turn of points (n, 3) about their normal (3,), once that is swung back from (n_states, 3); [rad]."""
+    """Mean turn of points (n, 3) about their normal (3,), swung back from (n_states, 3); [rad]."""
     arms = start - start.mean(axis=0)
     arms = arms - np.outer(arms @ normal, normal)
     moved = now - now.mean(axis=1)[:, None]

@@ -191,8 +191,8 @@ def undented(structure: Structure, solved: Solved) -> Iterator[str]:
             depth, left, obstacle = deepest[hinge.member]
             if left > law.left + DEEPER:
                 yield (
-                    f"Hinge {hinge.name} has at most {law.left:.0%} of its moment, for the dent that obstacle "
-                    f"{obstacle} would press if the ends of the tube stayed where they are; in this run it "
-                    f"is {format_quantity(depth, 'm')} deep, which leaves {left:.0%}. "
+                    f"Hinge {hinge.name} has at most {law.left:.0%} of its moment, for the dent that "
+                    f"obstacle {obstacle} would press if the ends of the tube stayed where they are; in "
+                    f"this run it is {format_quantity(depth, 'm')} deep, which leaves {left:.0%}. "
                     f"Compare with obstacles.{obstacle}.dents: false."
                 )

@@ -125,7 +125,7 @@ def _across(structure: StructureParts, member: str, axis: Axis) -> Floats:
 
 @dataclass(frozen=True)
 class _Bent:
-    """A tube that a dent bends: what holds its ends, about which direction, and where the obstacle is, (3,)."""
+    """A tube that a dent bends: what holds its ends, about which direction, where the obstacle is (3,)."""
 
     ends: tuple[HeldEnd, ...]
     about: Floats

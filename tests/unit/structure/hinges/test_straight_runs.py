@@ -1,4 +1,4 @@
-"""Members in line that are one tube fold as one: with one candidate at a kink between them, none elsewhere."""
+"""Members in line that are one tube fold as one: with a candidate at a kink between them, none elsewhere."""
 
 import math
 from itertools import pairwise
