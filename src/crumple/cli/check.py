@@ -84,6 +84,7 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
         struck_cautions,
         stuck_drives,
         stuck_note,
+        swept_supports,
         unheld_notes,
     )
     from crumple.structure import with_elastic_members
@@ -98,6 +99,8 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
     yield from driven_assumptions(structure)
     yield from loose_drives(structure, linkage)
     yield from (f"Caution: {caution.text}" for caution in struck_cautions(structure))
+    if not analysis.stages:
+        yield from (f"Caution: {text}" for text in swept_supports(structure, analysis.duration))
     yield from (f"Caution: {text}" for text in obstacle_overlap_warnings(structure, analysis.stages))
     yield from (f"Caution: {text}" for text in dict.fromkeys(one.text for one in section_doubts(structure)))
 

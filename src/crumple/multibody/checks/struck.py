@@ -28,9 +28,13 @@ from crumple.structure.hinges.asked import automatic_of, folds_at_ends
 from crumple.structure.hinges.runs.straight_runs import straight_run
 from crumple.structure.hinges.spatial_hinges import interaction_of
 from crumple.structure.hinges.struck_folds import left_by
+from crumple.structure.keys.motion import Support
+from crumple.structure.keys.obstacles import Obstacle, gap
 from crumple.structure.struck_places import struck_places
 from crumple.units import format_quantity
 
+LOOKS = 101
+"""Times at which the way of a driven obstacle is looked at: some milliseconds of a crash apart."""
 DEEPER = 0.15
 """Share of its moment that a fold has to keep more by the dent of the run than by that of its law, for a
 sentence: a bending moment is known about as well."""
@@ -177,7 +181,7 @@ def _touched(structure: Structure, solved: Solved | None) -> set[str]:
 
 
 def undented(structure: Structure, solved: Solved) -> Iterator[str]:
-    """A sentence for every fold whose law assumes a far deeper dent than the obstacle presses in the run."""
+    """A sentence for every fold whose law assumes a far deeper dent than is pressed in the run."""
     deepest: dict[str, tuple[float, float, str]] = {}
     for dent in solved.dents:
         depth = float(dent.depth.max(initial=0.0))
@@ -196,3 +200,54 @@ def undented(structure: Structure, solved: Solved) -> Iterator[str]:
                     f"this run it is {format_quantity(depth, 'm')} deep, which leaves {left:.0%}. "
                     f"Compare with obstacles.{obstacle}.dents: false."
                 )
+
+
+def swept_supports(structure: Structure, duration: float) -> Iterator[str]:
+    """A sentence for every driven obstacle that passes over nodes which supports hold.
+
+    Parameters
+    ----------
+    structure
+        Sound.
+    duration
+        Of a run without stages [s].
+
+    Notes
+    -----
+    Displacements alone are looked at, at `LOOKS` times, and the nodes where they stand at the start.
+    """
+    nodes = [node for node, own in structure.supports_at.items() if any(_holds(one) for _, one in own)]
+    times = np.linspace(0.0, duration, LOOKS)
+    for name, obstacle in structure.obstacles.items():
+        moved = np.zeros((LOOKS, 3))
+        for i, function in enumerate((obstacle.motion.x, obstacle.motion.y, obstacle.motion.z)):
+            if function is not None:
+                moved[:, i] = function(times)
+        ends = [node for node in nodes if _can_meet(structure, obstacle, node)]
+        if not moved.any() or not ends:
+            continue
+        places = np.array([structure.nodes[node] for node in ends])
+        apart = np.array([gap(obstacle, places - shift) for shift in moved])
+        first = {
+            node: times[int(np.argmax(row < 0.0))]
+            for node, row in zip(ends, apart.T, strict=True)
+            if row[0] > 0.0 and row.min() < 0.0
+        }
+        if first:
+            yield (
+                f"Obstacle {name} is driven over {named('node', list(first)).lower()}, which supports hold, "
+                f"from {format_quantity(float(min(first.values())), 's', 3)} on: nothing there can give way, "
+                "and shells press the walls between both without a limit. End its motion earlier."
+            )
+
+
+def _holds(support: Support) -> bool:
+    """Whether a support keeps its node in place."""
+    return {"x", "y", "z"} <= set(support.held)
+
+
+def _can_meet(structure: Structure, obstacle: Obstacle, node: str) -> bool:
+    """Whether a member at a node may touch an obstacle."""
+    return any(
+        obstacle.members is None or name in obstacle.members for name in structure.members_at.get(node, ())
+    )

@@ -9,7 +9,7 @@ from tests.support.multibody.frames import LAW, structure
 
 from crumple.analysis import loads, solve
 from crumple.multibody import Run, solve_multibody, struck_cautions
-from crumple.multibody.checks.struck import pressed_beyond
+from crumple.multibody.checks.struck import pressed_beyond, swept_supports
 from crumple.result import Channel, StageSummary
 from crumple.structure import MultibodySettings
 
@@ -201,3 +201,24 @@ def test_a_post_that_sways_is_not_dented_as_its_law_assumes(held):
     (dent,) = result.dents
     assert text.startswith("Hinge post-pole has at most 44% of its moment")
     assert f"it is {1e3 * dent.depth:.4g} mm deep, which leaves 70%" in text
+
+
+SWEEP = (
+    SWAYS[: SWAYS.index("obstacles:")].replace("HELD", "")
+    + """obstacles:
+  ram: {type: plane, point: [-40 mm, 0 m, 0.6 m], normal: [1, 0, 0], MEMBERS
+        motion: {x: {table: {time: [0 ms, 10 ms], value: [0 mm, WAY mm]}}}}
+analysis: {duration: 10 ms}
+"""
+)
+
+
+@pytest.mark.parametrize(
+    ("way", "members", "nodes"),
+    [(100, "", "a"), (30, "", ""), (100, "members: [beam],", ""), (600, "", "a, d")],
+)
+def test_a_driven_obstacle_that_passes_over_a_held_node_is_named_before_the_run(way, members, nodes):
+    whole = loads(SWEEP.replace("WAY", str(way)).replace("MEMBERS", members)).structure
+    found = list(swept_supports(whole, 0.01))
+    assert len(found) == bool(nodes)
+    assert all(nodes in text and "which supports hold" in text for text in found)
