@@ -1,8 +1,4 @@
-<<<<<<< HEAD
 """Members in line that are one tube fold as one: with a candidate at a kink between them, none elsewhere."""
-=======
-"""Members in line that are one tube fold as one: with one candidate at a kink between them."""
->>>>>>> 3d3aa95f (crumple check names held nodes over which an obstacle is driven)
 
 import math
 from itertools import pairwise
