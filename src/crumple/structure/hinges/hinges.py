@@ -212,14 +212,14 @@ def _placed(structure: StructureParts, place: HingePlace, shares: HingeShares) -
     axes = None if corner is None else corner.axes(structure)
     spatial = spatial_record_of(structure, place, shares)
     about = () if spatial is None else place.keys.bending or ()
+    # most members are chains of plain hinges
+    plain = spatial is None or axes is not None
     return PlacedHinge(
         name=place.name,
         member=place.member,
         station=place.station,
         axis=place.axis,
-        position=frame.position(place.station)
-        if axes is not None
-        else position_of(structure, place, spatial),
+        position=frame.position(place.station) if plain else position_of(structure, place, spatial),
         direction=direction_of(structure, place) if axes is None else axes[AXIS_ROW[place.axis]],
         tributary_length=shares.bending.get(place.axis, 0.0),
         law=law,

@@ -129,6 +129,7 @@ def bar_shares(
     twisted = nearest
     if between:
         twisted = {hinge: min(stretch, _fold(structure, name)) for hinge, stretch in nearest.items()}
+    whole = warping_span(structure, bar)
     return {
         place.name: HingeShares(
             {
@@ -140,7 +141,7 @@ def bar_shares(
             twist.get(place.name, 1.0),
             nearest[place.name],
             twisted[place.name],
-            *warping_span(structure, bar),
+            *whole,
         )
         for place in places
     }, found
