@@ -129,7 +129,7 @@ def bar_shares(
     twisted = nearest
     if between:
         twisted = {hinge: min(stretch, _fold(structure, name)) for hinge, stretch in nearest.items()}
-    whole = warping_span(structure, bar)
+    whole: tuple[float, HeldEnds] = warping_span(structure, bar) if twist else (length, "both")
     return {
         place.name: HingeShares(
             {
@@ -198,15 +198,7 @@ def warping_span(structure: StructureParts, bar: StraightRun) -> tuple[float, He
 
     In shells such a node holds all walls of the end as one rigid body.
     """
-    masses = {mass.node for mass in structure.masses.values()}
-    loaded = {load.node for load in structure.loads} | {impulse.node for impulse in structure.impulses}
-    held = [
-        node in masses
-        or node in loaded
-        or bool(structure.supports_at.get(node))
-        or len(structure.members_at[node]) > 1
-        for node in bar.nodes
-    ]
+    held = [node in structure.loaded_nodes or len(structure.members_at[node]) > 1 for node in bar.nodes]
     span = bar.length - sum(b - a for a, b in rigid_along(structure, bar))
     ends: tuple[HeldEnds, ...] = ("none", "one", "both")
     return span, ends[sum(held)]

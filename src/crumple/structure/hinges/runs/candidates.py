@@ -153,7 +153,7 @@ def _candidates(
     divided = [
         (node, at - ASIDE * half)
         for node, at in run.between.items()
-        if node in folding or kink_at(structure, node) > STRAIGHT
+        if node in folding or _ends_rigid(structure, node) or kink_at(structure, node) > STRAIGHT
     ]
     for name, at in (*inner, *struck, *divided):
         before = bisect(taken, at)
@@ -188,6 +188,11 @@ def _span(length: float, loaded: list[float], other_end: bool) -> float:
         Whether the other end takes a moment: what loads the run first, or that end, then folds the other way.
     """
     return min([length, *loaded]) / 2.0 if other_end else length
+
+
+def _ends_rigid(structure: StructureParts, node: str) -> bool:
+    """Whether a member at a node has rigid parts, at whose ends it folds."""
+    return any(structure.members[name].rigid for name in structure.members_at[node])
 
 
 def _beside(structure: StructureParts, *nodes: str) -> Fold | None:
