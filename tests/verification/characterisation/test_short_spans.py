@@ -4,8 +4,8 @@ Tubes that are clamped at one end and led across, without turning, at the other 
 middle: their folds at both ends have a span of half their length, 3 to 4 larger sides or diameters, where the
 law was solved with cantilevers of 6 and 8.  Solved once with shells by this program (slow, 5 elements along
 half a fold), listed before any was solved.  Expected: work up to rotations of the chord of 4, 10 and 18
-degrees.  Tolerance: 12 % (found: 10 % at the largest; with hinges at 0.7 of half a fold and one law for all
-spans 16 %).
+degrees.  Tolerance: 12 %, of round tubes 6 % (found: 10 and 5 % at the largest; with hinges at 0.7 of half a
+fold and one law for all spans 16 and 10 %).
 
 Places of folds and moments of short cantilevers: held-out tubes of the tables, solved by
 `python -m tools.law_clamped solve`.
@@ -80,7 +80,8 @@ def test_a_tube_between_a_clamp_and_a_guide_takes_the_work_of_shells(name, recor
     found = np.interp(1e-3 * length * np.sin(CHORDS), down, done)
     for chord, own, shells in zip(CHORDS, found, works, strict=True):
         title = f"{name} mm, work to {math.degrees(chord):.0f} deg of the chord"
-        record_figure(title, float(own), shells, 0.12, "J", relative=True)
+        tolerance = 0.06 if name.startswith("round") else 0.12
+        record_figure(title, float(own), shells, tolerance, "J", relative=True)
 
 
 @pytest.mark.parametrize("kind", LONG)

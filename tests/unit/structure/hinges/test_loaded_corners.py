@@ -7,11 +7,13 @@ import math
 import pytest
 
 from crumple.analysis import loads
+from crumple.hinge.tube_library.clamped import clamped_fold_distance
 from crumple.shell.mesh.mesh import mesh_of
 from crumple.structure import ShellSettings, hinge_places
 from crumple.structure.hinges.corners import corners, untreated
 from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.law_choice import distance_of_fold
+from crumple.structure.hinges.places import law_spec
 
 BENT = """crumple: 1
 materials:
@@ -73,3 +75,22 @@ def test_shells_hold_the_same_sections_in_shape(acting):
     assert (structure.loaded_nodes >= {"corner"}) == bool(acting)
     mesh = mesh_of(structure, ShellSettings(element_size=0.02))
     assert mesh.joints["corner"].rigid_ring == bool(acting)
+
+
+def test_automatic_hinges_beside_joints_lie_where_the_law_has_the_fold():
+    """Of a metal that hardens further out; not where the formula stands for the fold."""
+    plain = bent("mass")
+    hard = BENT.replace("yield_stress: 350 MPa", "yield_stress: 350 MPa, hardening: HARD").replace(
+        "HARD", "{type: swift, prestrain: 0.01, exponent: 0.18}"
+    )
+    hard = loads(
+        hard.replace("TIP", "[0.5 m, 0 m, 0.45 m]").replace("SUPPORT", "") + ACTING["mass"]
+    ).structure
+    at = [next(one for one in hinge_places(each) if one.name == "post-foot") for each in (plain, hard)]
+    section, metal = hard.section_of("post"), hard.material_of("post")
+    assert at[1].station == pytest.approx(clamped_fold_distance(section, metal, at[1].axis))
+    assert at[1].station > 1.3 * at[0].station
+    keys = law_spec(hard, at[1])
+    assert keys.own["distance"] == at[1].station
+    # half of what lies between the clamp and the face of the joint
+    assert keys.own["span"] == pytest.approx((0.45 - 0.030) / 2.0)
