@@ -147,11 +147,10 @@ class Fit:
     left_out: Floats
     score: float
 
-    @property
-    def entries(self) -> dict[str, Any]:
-        """As in the file of the table."""
-        named = ("lengths", "exponents", "centres", "trend", "weights")
-        return {name: rounded(getattr(self, name)) for name in named}
+    def entries(self, columns: int) -> dict[str, Any]:
+        """As in the file of the table, with the coefficients of the first knots."""
+        found = {name: rounded(getattr(self, name)) for name in ("lengths", "exponents", "centres")}
+        return found | {name: rounded(getattr(self, name)[:, :columns]) for name in ("trend", "weights")}
 
 
 def rounded(values: Floats) -> list[Any]:

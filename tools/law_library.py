@@ -248,7 +248,7 @@ def write_table(
         "ranges": ranges(name),
         "rotation_deg": KNOTS[:columns].tolist(),
         "band": 0.0,
-        "fit": settings(fit) | fit.entries | rounded_columns(fit, columns),
+        "fit": settings(fit) | fit.entries(columns),
         "points": [
             *(entry(one, errors) for one, errors in zip(fitted, fit.left_out, strict=True)),
             *(entry(one) for one in held_out),
@@ -259,11 +259,6 @@ def write_table(
     path = Path(__file__).parent.parent / "src/crumple/hinge/tube_library" / f"{name}.json"
     path.write_text(lines_of(written) + "\n")
     return found
-
-
-def rounded_columns(fit: Fit, columns: int) -> dict[str, Any]:
-    """First columns of the coefficients of a fit."""
-    return {"trend": rounded(fit.trend[:, :columns]), "weights": rounded(fit.weights[:, :columns])}
 
 
 def band_of(found: TubeTable, held_out: list[Solved]) -> float:
