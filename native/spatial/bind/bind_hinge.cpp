@@ -82,6 +82,17 @@ hinge::Curve make_shares(const Doubles& rotation, const Doubles& share, double l
     return {{rotation.begin(), rotation.end()}, {share.begin(), share.end()}};
 }
 
+// Shares of a capacity over a flow that spreads: places, then shares, from 0 on and up to 1.
+hinge::Curve make_spread(const nb::dict& d, const char* key) {
+    const auto given = entry<std::vector<Doubles>>(d, key);
+    require(given.size() == 2, "a spread has places and shares");
+    for (size_t i = 0; i < given[1].size(); i++) {
+        require(given[1][i] > 0 && given[1][i] >= (i == 0 ? 0 : given[1][i - 1]), "shares of a spread are positive and do not fall");
+    }
+    require(given[0].empty() || (given[0].front() == 0 && given[0].size() > 1 && given[1].back() == 1), "a spread begins at 0 and ends with all of the capacity");
+    return make_shares(given[0], given[1], 1 + 1e-12, "shares of a spread are at most 1, at increasing flows");
+}
+
 Surface make_surface(const nb::dict& d, int n) {
     require(n >= 1 && n <= most_components, "a hinge has one to four components");
     Surface s;
@@ -120,7 +131,7 @@ SpatialHinge make_hinge(const nb::dict& d) {
     SpatialHinge h;
     const int form = entry<int>(d, "form"), softening = entry<int>(d, "softening");
     int slips = 0, turns = 0;
-    bool driven = false;
+    bool driven = false, spreads = false;
     for (nb::handle item : entry<nb::list>(d, "components")) {
         const auto c = as<nb::dict>(item, "a component of a hinge");
         h.components.push_back({entry<int>(c, "freedom"),
@@ -129,8 +140,10 @@ SpatialHinge make_hinge(const nb::dict& d) {
                                             "shares of a shift are below 1, at increasing rotations"),
                                 make_shares(entry<Doubles>(c, "worn_rotation"), entry<Doubles>(c, "worn_share"), 1,
                                             "shares of a capacity that is gone are below 1, at increasing rotations"),
-                                entry<int>(c, "driver")});
+                                entry<int>(c, "driver"),
+                                {make_spread(c, "positive_spread"), make_spread(c, "negative_spread")}});
         const Component& last = h.components.back();
+        spreads = spreads || !last.spread[0].values().empty() || !last.spread[1].values().empty();
         require(last.freedom >= 0 && last.freedom < 6, "a freedom is one of six");
         require(form != 1 || (last.law.stiffness > 0 && std::isfinite(last.law.stiffness)), "an elastic hinge needs a stiffness");
         (last.freedom < 3 ? slips : turns)++;
@@ -149,6 +162,8 @@ SpatialHinge make_hinge(const nb::dict& d) {
         for (const double share : c.worn.values()) require(share >= 0, "no capacity is gained");
     }
     require(!driven || (h.surface.coupling == Coupling::ellipsoid && form != 2), "only an ellipsoid that is not regularised has shares that depend on a rotation");
+    const bool together = h.surface.coupling == Coupling::section || h.surface.coupling == Coupling::ellipsoid;
+    require(!spreads || (together && form != 2), "only components with one measure of softening, which are not regularised, spread");
     require(h.surface.coupling != Coupling::ball || slips == 0, "a ball hinge has rotations only");
     require(h.surface.coupling != Coupling::tension_flange || (slips == 1 && turns == 1 && form != 2 && h.surface.arm > 0),
             "a hinge about its tension flange has one slip and one rotation, an arm, and is not regularised");

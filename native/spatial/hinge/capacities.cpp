@@ -40,6 +40,22 @@ SurfacePoint measure_from(const SpatialHinge& hinge, const double* e, const doub
     return nearest(hinge.surface, n, y, none, guess, nullptr, true);
 }
 
+bool spreads(const Component& c) { return !c.spread[0].values().empty() || !c.spread[1].values().empty(); }
+
+// Flow up to which a component spreads over the member in the sense of e.
+double spread_end(const Component& c, double e) {
+    const hinge::Curve& curve = c.spread[e < 0 ? 1 : 0];
+    return curve.values().empty() ? 0 : curve.places().back();
+}
+
+// What a plastic rotation has beyond what spreads over the member.
+void beyond_spread(const SpatialHinge& hinge, const double* e, double* left) {
+    for (int k = 0; k < size(hinge); k++) {
+        const Component& c = hinge.components[static_cast<size_t>(k)];
+        left[k] = std::copysign(std::max(std::fabs(e[k]) - spread_end(c, e[k]), 0.0), e[k]);
+    }
+}
+
 // Mean of a capacity over its variable from a to b; the value at b for the elastic form.
 double capacity_over(const hinge::Curve& curve, double a, double b, bool at_end, int& hint) {
     if (at_end) return curve.at(b, hint);
@@ -63,17 +79,35 @@ double first_capacity(const SpatialHinge& hinge, int k, int sense) {
 SurfacePoint measure_after(const SpatialHinge& hinge, const SpatialHingeState& s, const double* e, const double* flow) {
     bool creeps = hinge.surface.coupling == Coupling::section;
     for (int k = 0; k < size(hinge); k++) creeps = creeps && std::fabs(flow[k]) <= smallest_flow;
-    if (!creeps) return measure_from(hinge, e, s.along);
     SurfacePoint p{{s.along[0], s.along[1], s.along[2], s.along[3]}, s.work};
-    for (int k = 0; k < size(hinge); k++) p.value += p.x[k] * first_capacity(hinge, k, p.x[k] < 0 ? 1 : 0) * flow[k];
+    if (!creeps) {
+        double left[most];
+        beyond_spread(hinge, e, left);
+        if (!std::all_of(left, left + size(hinge), [](double part) { return part == 0; })) return measure_from(hinge, left, s.along);
+        p.value = 0;
+        return p;
+    }
+    for (int k = 0; k < size(hinge); k++) {
+        if (std::fabs(e[k]) >= spread_end(hinge.components[static_cast<size_t>(k)], e[k])) p.value += p.x[k] * first_capacity(hinge, k, p.x[k] < 0 ? 1 : 0) * flow[k];
+    }
     return p;
 }
 
 double measure(const SpatialHinge& hinge, const double* e) { return measure_from(hinge, e, nullptr).value; }
 
+double softening_by(const SpatialHinge& hinge, const double* e, const double* flow) {
+    double end[most], before[most], after[most];
+    for (int k = 0; k < size(hinge); k++) end[k] = e[k] + flow[k];
+    beyond_spread(hinge, e, before);
+    beyond_spread(hinge, end, after);
+    for (int k = 0; k < size(hinge); k++) after[k] -= before[k];
+    return measure(hinge, after);
+}
+
 bool softens(const SpatialHinge& hinge) {
     if (driven(hinge)) return true;
     for (const Component& c : hinge.components) {
+        if (spreads(c)) return true;
         for (const hinge::Curve* curve : {&c.law.positive, &c.law.negative}) {
             for (const double value : curve->values()) {
                 if (value != curve->values().front()) return true;
@@ -98,6 +132,19 @@ double slope_over(const hinge::Curve& curve, double a, double b, bool at_end, in
     return std::max(further, 0.0) / smallest_mean;
 }
 
+// Shares of the capacities of a component that spreads over the member, on its way to a flow `end`.
+void spread_over(const Component& c, const hinge::HingeState& s, double end, FrozenSpatialHinge& f, int k) {
+    const bool at_end = c.law.form == Form::elastic_plastic;
+    const double so_far = std::max(s.peak[0], s.peak[1]), ahead = std::max(so_far, std::fabs(end));
+    for (int sense = 0; sense < 2; sense++) {
+        if (c.spread[sense].values().empty()) continue;
+        int hint = 0;
+        double& capacity = f.component[k].capacity[sense];
+        if (f.late != 0.5 && ahead > so_far) f.slope[k] = std::max(f.slope[k], capacity * slope_over(c.spread[sense], so_far, ahead, at_end, hint));
+        capacity *= capacity_over(c.spread[sense], so_far, ahead, at_end, hint);
+    }
+}
+
 void mean_capacities(const SpatialHinge& hinge, const SpatialHingeState& s, const double* e, const double* flow, FrozenSpatialHinge& f) {
     const int n = size(hinge);
     const bool at_end = form_of(hinge) == Form::elastic_plastic;
@@ -118,11 +165,12 @@ void mean_capacities(const SpatialHinge& hinge, const SpatialHingeState& s, cons
     }
     double end[most] = {};
     for (int k = 0; k < n; k++) end[k] = e[k] + flow[k];
+    const double none[most] = {};
     const bool follows = hinge.surface.coupling == Coupling::section;
-    double from = follows ? s.work : measure(hinge, e), to = measure_after(hinge, s, end, flow).value, held = 0;
+    double from = follows ? s.work : measure_after(hinge, s, e, none).value, to = measure_after(hinge, s, end, flow).value, held = 0;
     switch (law_of(hinge, 0).softening) {
         case Softening::rotation: break;
-        case Softening::accumulated: from = s.softening, to = s.softening + measure(hinge, flow); break;
+        case Softening::accumulated: from = s.softening, to = s.softening + softening_by(hinge, e, flow); break;
         case Softening::peak: {
             // share of the flow before it exceeds the peak so far, with the capacity at that peak
             const double peak = std::max(s.softening, from);
@@ -143,6 +191,7 @@ void mean_capacities(const SpatialHinge& hinge, const SpatialHingeState& s, cons
             f.slope[k] = std::max(f.slope[k], slope);
         }
         const Component& c = hinge.components[static_cast<size_t>(k)];
+        if (spreads(c)) spread_over(c, s.component[k], end[k], f, k);
         if (c.driver < 0) continue;
         const hinge::HingeState& driver = s.component[c.driver];
         const double so_far = std::max(driver.peak[0], driver.peak[1]), ahead = std::max(so_far, std::fabs(end[c.driver]));

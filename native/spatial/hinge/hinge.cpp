@@ -165,13 +165,12 @@ void gather_separate(const SpatialHinge& hinge, const FrozenSpatialHinge& f, Spa
     }
 }
 
-// Updates the times, the episode and the softening measure of a coupled hinge after a flow.
+// Updates the times and the episode of a coupled hinge after a flow.
 void follow_flow(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHingeState& s, double t0, const double* w1,
                  const double* flow, double arrest) {
     const bool elastic = form_of(hinge) == Form::elastic_plastic;
     // rigid hinges flow whenever they slide; the work of a flow shows when an elastic one does
-    const bool counted = elastic || law_of(hinge, 0).softening == Softening::accumulated;
-    const double work = on_flange(hinge) || !counted || stands_still(hinge, flow) ? 0 : measure(hinge, flow);
+    const double work = on_flange(hinge) || !elastic || stands_still(hinge, flow) ? 0 : measure(hinge, flow);
     double ahead = 0, start = 0;
     for (int k = 0; k < size(hinge); k++) {
         const double c = larger_capacity(f, k);
@@ -201,7 +200,6 @@ void follow_flow(const SpatialHinge& hinge, const FrozenSpatialHinge& f, Spatial
     if (flowed && s.opening_time < 0 && f.intact > 0) s.opening_time = t0;
     if (flowed && (!elastic || s.episode > smallest_episode * s.accumulated)) s.rest_time = s.sliding ? t0 + f.h : arrest;
     if (!s.sliding) s.episode = 0;
-    if (law_of(hinge, 0).softening == Softening::accumulated) s.softening += work;
 }
 
 }  // namespace
@@ -312,6 +310,10 @@ void commit(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHinge
             s.work = reached.value;
             std::copy_n(reached.x, n, s.along);
             if (law_of(hinge, 0).softening == Softening::peak) s.softening = std::max(s.softening, s.work);
+            if (law_of(hinge, 0).softening == Softening::accumulated && !stands_still(hinge, flow)) {
+                for (int k = 0; k < n; k++) e[k] -= flow[k];
+                s.softening += softening_by(hinge, e, flow);
+            }
         }
     }
     s.rotation_max = std::max(s.rotation_max, length_of_rotation(hinge, q1));

@@ -14,7 +14,7 @@
 // Softening.  One component: its own plastic rotation, largest so far in each sense.  Coupled components: one measure s of the plastic
 // rotation vector e, the work D_0(e) of a proportional rotation to e at the initial capacities.  Each curve is evaluated at s/C_k(0),
 // the rotation about its own axis that would dissipate that work.  `peak`: the largest s so far, both senses together; `rotation`:
-// the present s; `accumulated`: the sum of s over all increments of e.
+// the present s; `accumulated`: the sum of s over all increments of e.  What spreads over the member (`Component::spread`) is left out of e.
 #pragma once
 
 #include <limits>
@@ -40,6 +40,9 @@ struct Component {
     // measure of softening.
     hinge::Curve shift, worn;
     int driver = -1;
+    // Over the largest flow so far of the component, in either sense: share of its capacity in the positive and the negative sense before
+    // it has flowed so far (no points: all of it).  Flow up to the end of the curve of its sense does not soften the hinge.
+    hinge::Curve spread[2];
 };
 
 // Parameters of one hinge.  All components have the form and softening of the first one.

@@ -44,6 +44,8 @@ def component(freedom, positive, negative=None, **more):
         "worn_rotation": [],
         "worn_share": [],
         "driver": -1,
+        "positive_spread": [[], []],
+        "negative_spread": [[], []],
     } | more
 
 

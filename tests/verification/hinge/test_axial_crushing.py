@@ -34,7 +34,7 @@ from crumple.hinge.axial.square import Mode, mode_forces
 from crumple.hinge.axial.squash import FREE, HELD, effective_width
 from crumple.hinge.axial.superfolding import COEFFICIENT, HALF_FOLD, ROLLING_RADIUS
 from crumple.hinge.axial.top_hat import DOUBLE_HAT, TOP_HAT, HatCrushing
-from crumple.material import CowperSymonds, Material
+from crumple.material import CowperSymonds, HardeningTable, Material, Swift
 from crumple.section import CircularTube, ClosedHat, RectangularTube
 
 STEEL = Material("steel", 210e9, 0.3, 7850.0, 300e6)
@@ -117,6 +117,19 @@ def test_the_first_trough_is_that_of_shells(side, wall, stress, at, trough, reco
     record_figure(f"{side}x{wall} mm, first trough", force, trough, 0.15, "N", relative=True)
 
 
+HARDENED = [
+    ("square", 60, 2, (320e6, 0.006, 0.13), 1.160),
+    ("square", 35, 1.8, (400e6, 0.012, 0.07), 1.090),
+    ("square", 50, 4, (320e6, 0.006, 0.13), 1.423),
+    ("square", 45, 1.5, (250e6, 0.005, 0.2), 1.294),
+    ("circular", 60, 2, (320e6, 0.006, 0.13), 1.223),
+    ("circular", 30, 1.5, (250e6, 0.005, 0.2), 1.646),
+    ("circular", 50, 3.5, (400e6, 0.012, 0.07), 1.144),
+    ("circular", 70, 1.8, (320e6, 0.006, 0.13), 1.175),
+]
+"""Yield stress, prestrain and exponent of Swift's curve, and largest force of shells over the squash load."""
+
+
 @pytest.mark.parametrize(("kind", "wall", "shells"), FIRST_FOLDS)
 def test_the_first_fold_takes_the_work_of_shells(kind, wall, shells, record_figure):
     """Columns of 40 mm and 350 MPa between clamps, pushed slowly: docs/theory/axial_crushing.md."""
@@ -130,6 +143,60 @@ def test_the_first_fold_takes_the_work_of_shells(kind, wall, shells, record_figu
     work = trapezoid(law.moment_capacity(u, -1), u) / (metal.yield_stress * tube.area * fold / 4.0)
     name = f"{kind} 40x{wall} mm, mean over a quarter of the first fold, over the squash load"
     record_figure(name, work, shells, 0.10, "", relative=True)
+
+
+@pytest.mark.parametrize(("kind", "size", "wall", "metal", "shells"), HARDENED)
+def test_the_peak_of_metal_that_hardens_is_that_of_shells(kind, size, wall, metal, shells, record_figure):
+    """Columns between clamps pushed slowly, of which none was used to find the constants."""
+    stress, prestrain, exponent = metal
+    hardening = Swift(stress, prestrain, exponent)
+    steel = Material("steel", 210e9, 0.3, 7850.0, stress, hardening=hardening)
+    side = size / 1e3
+    tube = RectangularTube(side, side, wall / 1e3) if kind == "square" else CircularTube(side, wall / 1e3)
+    law = build_axial_law(kind, tube, steel)
+    name = f"{kind} {size}x{wall} mm, {stress / 1e6:g} MPa, n = {exponent:g}, peak over squash load"
+    record_figure(name, law.peak_force / (stress * tube.area), shells, 0.05, "", relative=True)
+
+
+def test_the_force_rises_along_the_hardening_curve_to_the_peak_and_in_tension_to_the_neck():
+    curve, tube = Swift(280e6, 0.008, 0.16), RectangularTube(0.04, 0.04, 0.002)
+    steel = Material("steel", 210e9, 0.3, 7850.0, 280e6, hardening=curve)
+    law, length = build_axial_law("square", tube, steel), 0.3
+    squash = 280e6 * tube.area
+    column = AxialCollapse.of(law, 0.4, tension=squash, closed_stiffness=1e6).hardening(
+        steel, law.peak_strain, length
+    )
+    strains = law.peak_strain * np.array([0.0, 0.25, 1.0])
+    wanted = tube.area * curve.stress(strains) * np.exp(strains)
+    np.testing.assert_allclose(column.moment_capacity(strains * length, -1), wanted, rtol=2e-3)
+    # what follows is the fold of a column of this peak
+    later = column.folding.moment_capacity([0.0, 5e-3, 2e-2], -1)
+    end = law.peak_strain * length
+    np.testing.assert_allclose(column.moment_capacity(end + np.array([0.0, 5e-3, 2e-2]), -1), later)
+    assert later[0] == pytest.approx(law.peak_force, rel=1e-9)
+    assert column.stop.rotation == pytest.approx(end + law.effective_stroke * 0.4, rel=1e-12)
+    # Considere: the neck begins at e = n - e_0, and holds its force
+    neck = 0.16 - 0.008
+    most = tube.area * float(curve.stress(neck)) * math.exp(-neck)
+    np.testing.assert_allclose(
+        column.moment_capacity([0.0, neck * length, 0.2], 1), [squash, most, most], rtol=2e-3
+    )
+    kinks = np.array([0.0, *column.kinks(-1), 0.5])
+    middles = (kinks[1:] + kinks[:-1]) / 2.0
+    ends = column.moment_capacity(kinks, -1)
+    np.testing.assert_allclose(column.moment_capacity(middles, -1), (ends[1:] + ends[:-1]) / 2.0, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    "curve", [None, HardeningTable((0.0, 0.02, 0.2), (280e6, 280e6, 400e6))], ids=["none", "plateau"]
+)
+def test_walls_fold_at_yield_where_nothing_hardens_there(curve):
+    steel = Material("steel", 210e9, 0.3, 7850.0, 280e6, hardening=curve)
+    for name, section in (("square", SQUARE), ("circular", ROUND)):
+        law = build_axial_law(name, section, steel)
+        assert law.peak_strain == 0.0
+        plain = build_axial_law(name, section, Material("steel", 210e9, 0.3, 7850.0, 280e6))
+        assert law.peak_force == plain.peak_force
 
 
 @every_law

@@ -120,13 +120,16 @@ class SpatialComponent(HingeConstants):
 
     Over the largest rotation about the component `driver` (rotation, share; empty and -1: none): `shift`,
     where the centre of the set lies along it (the initial capacity of the driver is then its weight in the
-    measure of softening), and `worn`, what is gone of its capacity.
+    measure of softening), and `worn`, what is gone of its capacity.  `positive_spread`, `negative_spread`:
+    see `Spread`.
     """
 
     freedom: int
     shift: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
     worn: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
     driver: int = -1
+    positive_spread: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
+    negative_spread: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
 
     def component(self) -> dict[str, Any]:
         """The constants and the freedom in the form that the kernel takes."""
@@ -138,6 +141,8 @@ class SpatialComponent(HingeConstants):
             "worn_rotation": as_list(worn_rotation),
             "worn_share": as_list(worn_share),
             "driver": self.driver,
+            "positive_spread": [as_list(one) for one in self.positive_spread],
+            "negative_spread": [as_list(one) for one in self.negative_spread],
         }
 
 

@@ -2,7 +2,9 @@
 
 A hinge stands for what shells do over a length.  The work of a joint of an elastic member is spread evenly up
 to half way to its neighbours, and `DISTORTED` of what a mitred corner of rectangular tubes takes about its
-bisector over the length l of both members that it distorts, falling to zero as the distortion does.
+bisector over the length l of both members that it distorts, falling to zero as the distortion does.  What a
+hinge of a metal that hardens takes along its member before it folds or necks there is spread like the work of
+a joint.
 """
 
 from __future__ import annotations
@@ -11,12 +13,15 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from crumple.hinge import Freedom
 from crumple.hinge.corner.mitred_corner_across import distorted_length
+from crumple.numeric.arrays import Floats
 from crumple.result import Result
 from crumple.section import RectangularTube
 from crumple.structure import PlacedHinge, Structure, plastic_hinges
 from crumple.structure.hinges.corner_laws import corner_of
 from crumple.structure.hinges.corners import Corner
+from crumple.structure.hinges.joint_reach import joint_reach
 
 PIECES = 16
 """Pieces in which energy is spread over a length."""
@@ -46,9 +51,65 @@ def largest_of(result: Result, channel: str) -> float | None:
 def hinge_work(result: Result, structure: Structure) -> list[Work]:
     """Work of hinges, dents, and what yielded between, in a multibody run."""
     hinges = plastic_hinges(structure)
-    at_hinges = [(one.member, one.station, float(result[f"hinge.{one.name}.energy"][-1])) for one in hinges]
+    uniform = {one.name: work for one in hinges if (work := _before_folding(result, one)) > 0.0}
+    at_hinges = [
+        (one.member, one.station, float(result[f"hinge.{one.name}.energy"][-1]) - uniform.get(one.name, 0.0))
+        for one in hinges
+    ]
     dents = [(dent.member, dent.station, dent.energy) for dent in result.dents]
-    return [*at_hinges, *dents, *_of_joints(result, structure, hinges)]
+    along = _along_members(structure, hinges, uniform)
+    return [*at_hinges, *dents, *along, *_of_joints(result, structure, hinges)]
+
+
+def _before_folding(result: Result, hinge: PlacedHinge) -> float:
+    """Work of the slip of a hinge that its member's length shares [J]."""
+    parts = () if hinge.spatial is None else hinge.spatial.components
+    spread = next((part.spread for part in parts if part.spread is not None), None)
+    if spread is None:
+        return 0.0
+    slip, force = (result[f"hinge.{hinge.name}.slip.x.{one}"] for one in ("plastic_travel", "force"))
+    longest, shortest = (
+        one[0][-1] if one[0].size else 0.0 for one in (spread.lengthening, spread.shortening)
+    )
+    shared = np.clip(slip, -shortest, longest)
+    # where the slip comes back it yields anew, in the fold
+    new = np.abs(slip) >= np.maximum.accumulate(np.abs(slip))
+    work = np.diff(shared) * (force[1:] + force[:-1]) / 2.0
+    return float(np.maximum(work, 0.0)[new[1:]].sum())
+
+
+def _along_members(
+    structure: Structure, hinges: tuple[PlacedHinge, ...], uniform: dict[str, float]
+) -> Iterator[Work]:
+    """Energy in pieces of the length up to half way to the next hinges of the member that slip."""
+    for member in dict.fromkeys(one.member for one in hinges if one.name in uniform):
+        own = sorted(
+            (one.station, uniform.get(one.name, 0.0))
+            for one in hinges
+            if one.member == member and _slips(one)
+        )
+        stations = np.array([station for station, _ in own])
+        borders = _half_way(stations, structure, member)
+        for k, (_, energy) in enumerate(own):
+            yield from _in_pieces(member, borders[k : k + 2], energy)
+
+
+def _slips(hinge: PlacedHinge) -> bool:
+    return hinge.spatial is not None and Freedom.AXIAL in hinge.spatial.freedoms
+
+
+def _half_way(stations: Floats, structure: Structure, member: str) -> Floats:
+    """Borders half way between points of a member [m], and where it leaves the rigid joints at its ends."""
+    nodes, length = structure.members[member].nodes, structure.frame_of(member).length
+    first, last = (joint_reach(structure, member, node) for node in nodes)
+    ends = min(first, float(stations[0])), max(length - last, float(stations[-1]))
+    return np.concatenate([ends[:1], (stations[:-1] + stations[1:]) / 2.0, ends[1:]])
+
+
+def _in_pieces(member: str, borders: Floats, energy: float) -> Iterator[Work]:
+    """Energy that is spread evenly between two borders."""
+    middles = borders[0] + (np.arange(PIECES) + 0.5) / PIECES * (borders[1] - borders[0])
+    yield from ((member, float(at), energy / PIECES) for at in middles)
 
 
 def distortions(result: Result, structure: Structure) -> Iterator[tuple[str, Work]]:
@@ -99,9 +160,7 @@ def _of_joints(result: Result, structure: Structure, hinges: tuple[PlacedHinge, 
             station for station, _ in joints
         }
         points = np.array(sorted(own))
-        length = structure.frame_of(member).length
-        borders = np.concatenate([[0.0], (points[:-1] + points[1:]) / 2.0, [length]])
+        borders = _half_way(points, structure, member)
         for station, energy in joints:
             k = int(np.searchsorted(points, station))
-            middles = borders[k] + (np.arange(PIECES) + 0.5) / PIECES * (borders[k + 1] - borders[k])
-            yield from ((member, float(at), energy / PIECES) for at in middles)
+            yield from _in_pieces(member, borders[k : k + 2], energy)

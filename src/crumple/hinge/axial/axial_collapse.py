@@ -12,6 +12,9 @@ walls carry no more than their yield.  A fold takes the work P_m d whatever its 
 
 Further folds make the force swing about P_m; that is left out.  Without H the force falls linearly over 5 %
 of the stroke, and d is the stroke.  In tension the walls yield.  Limits: P_0 = P_m is a constant force.
+Metal that hardens yields along a length l_h before it folds, in compression, or necks, in tension: the force
+rises along its hardening curve to P_0 at u_h = e l_h, with e the strain at the peak or at the neck, and the
+above counts from there.
 Derived here; not valid for a column shorter than its fold, or one that buckles sideways.
 """
 
@@ -26,9 +29,12 @@ from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.axial.axial_law import AxialLaw
+from crumple.hinge.axial.hardened_peak import necking_strain, uniform_yield
 from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
 from crumple.hinge.rate import HingeRate, rate_factor
 from crumple.hinge.stop import Stop
+from crumple.material import Material
+from crumple.material.hardening.curve import HardeningCurve
 from crumple.numeric.arrays import Floats
 from crumple.numeric.monotone_root import rising_root
 
@@ -37,6 +43,10 @@ FIRST_FALL = 0.05
 """Share of the stroke over which the peak falls where no fold length is known."""
 PIECES = 8
 """Straight pieces of P_0 sqrt(u_0/u)."""
+
+
+_Curve = tuple[tuple[float, ...], tuple[float, ...]]
+NO_RISE: _Curve = ((), ())
 
 
 @dataclass(frozen=True)
@@ -52,9 +62,13 @@ class AxialCollapse:
     tension
         Force in tension [N].
     points
-        Shortening [m] and force [N] at the corners of the curve, which is constant beyond the last.
+        Shortening beyond the rise [m] and force [N] at the corners of the curve, which is constant beyond the
+        last.
     stop
         Stop of the closed folds, in shortening only; None without a stroke.
+    rises
+        Of tension, then of compression: slip [m] from 0 to u_h and force over that at its end [-]; empty:
+        none.
 
     References
     ----------
@@ -70,7 +84,7 @@ class AxialCollapse:
     mean: float
     stroke: float
     tension: float
-    points: tuple[tuple[float, ...], tuple[float, ...]]
+    points: _Curve
     stop: Stop | None = None
     rate: HingeRate | None = None
     source: Source = CHOSEN
@@ -78,6 +92,7 @@ class AxialCollapse:
     softening_variable: SofteningVariable = SofteningVariable.PEAK
     elastic_stiffness: float | None = None
     jamming_angle: float | None = None
+    rises: tuple[_Curve, _Curve] = (NO_RISE, NO_RISE)
 
     @classmethod
     def given(
@@ -156,23 +171,58 @@ class AxialCollapse:
         basis = Validity(math.inf, law.validity.basis, law.validity.warnings, law.validity.uncertainty)
         return replace(made, rate=rate, source=law.source, validity=basis)
 
+    def hardening(
+        self, material: Material, strain: float, length: float, *, neck: bool = True
+    ) -> AxialCollapse:
+        """The same with the rise of its metal over a length [m] before it.
+
+        Parameters
+        ----------
+        material
+            Its hardening curve.
+        strain
+            Plastic strain at the peak in compression [-]; 0: no rise there.
+        neck
+            Whether the force in tension, now the yield force, rises to that of the neck.
+        """
+        curve = material.hardening
+        if curve is None:
+            return self
+        pulled = necking_strain(curve) if neck else 0.0
+        rises = tuple(_rise(curve, end, sense, length) for end, sense in ((pulled, 1), (strain, -1)))
+        first = rises[0][1][:1] or (1.0,)
+        stop = self.stop and replace(self.stop, rotation=self.stop.rotation + strain * length)
+        return replace(self, tension=self.tension / first[0], rises=(rises[0], rises[1]), stop=stop)
+
+    @property
+    def folding(self) -> AxialCollapse:
+        """What follows the rise, as if nothing had happened before."""
+        return replace(self, rises=(NO_RISE, NO_RISE))
+
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
-        """Shortening at which the slope of the force changes."""
-        return tuple(at for at in self.points[0] if 0.0 < at < math.pi) if sense < 0 else ()
+        """Slip at which the slope of the force changes."""
+        rise = self.rises[0 if sense > 0 else 1][0]
+        end = rise[-1] if rise else 0.0
+        later = () if sense > 0 else self.points[0]
+        return tuple(at for at in (*rise, *(end + one for one in later)) if 0.0 < at < math.pi)
 
     def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Force [N] at a slip [m]: sense -1 is shortening."""
         u = np.asarray(rotation, np.float64)
-        if sense > 0:
-            return np.full_like(u, self.tension)
-        return np.asarray(np.interp(u, *self.points), np.float64)
+        slip, share = self.rises[0 if sense > 0 else 1]
+        beyond = np.maximum(u - slip[-1], 0.0) if slip else u
+        later = np.full_like(u, self.tension) if sense > 0 else np.interp(beyond, *self.points)
+        return np.asarray(later * np.interp(u, slip, share) if slip else later, np.float64)
 
     def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
         """Factor at a speed of slip [m/s]."""
         return rate_factor(self.rate, rotation_rate)
 
 
-_Curve = tuple[tuple[float, ...], tuple[float, ...]]
+def _rise(curve: HardeningCurve, strain: float, sense: int, length: float) -> _Curve:
+    """Slip over a length [m] and share of the last force."""
+    places, share = uniform_yield(curve, strain, sense)
+    return tuple((length * places).tolist()), tuple(share.tolist())
 
 
 def _linear(peak: float, mean: float, stroke: float) -> _Curve:

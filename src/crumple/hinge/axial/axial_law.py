@@ -67,7 +67,9 @@ class AxialLaw(Protocol):
     name, title
         Short key and one line for people.
     peak_force
-        Squash or plate-buckling load [N].
+        Squash or plate-buckling load [N], with the hardening up to the peak.
+    peak_strain
+        Plastic strain [-] of the whole column at the peak; 0 without hardening.
     mean_crushing_force
         Static mean force over the effective stroke [N].
     effective_stroke
@@ -88,6 +90,8 @@ class AxialLaw(Protocol):
     def validity(self) -> CrushValidity: ...
     @property
     def peak_force(self) -> float: ...
+    @property
+    def peak_strain(self) -> float: ...
     @property
     def mean_crushing_force(self) -> float: ...
     @property

@@ -34,6 +34,7 @@ from crumple.hinge.axial.axial_law import (
     crush_rate,
     curved_wall_moment,
 )
+from crumple.hinge.axial.hardened_peak import ROUND, rise
 from crumple.hinge.law import Source, Trust
 from crumple.hinge.options import choice
 from crumple.hinge.rate import rate_warnings
@@ -81,6 +82,7 @@ class CircularCrushing:
     validity: CrushValidity
     rate: CrushRate | None = None
     half_fold_length: float | None = None
+    peak_strain: float = 0.0
     source: Source = SOURCE
 
     @classmethod
@@ -99,7 +101,8 @@ class CircularCrushing:
         section
             Circular tube; its mean radius and wall are used.
         material
-            Flow stress for the mean force, yield stress for the peak, flow rate for the rate factor.
+            Flow stress for the mean force, yield stress and hardening for the peak, flow rate for the rate
+            factor.
         mode, crush_distance
             Options, by enum or by text; the diamond mode has the effective distance only.
 
@@ -121,18 +124,20 @@ class CircularCrushing:
         ratio = 2.0 * radius / wall
         stroke = effective_distance(ratio) if distance is CrushDistance.EFFECTIVE else 1.0
         moment = curved_wall_moment(material.flow_stress, wall)
+        strain = ROUND.strain(material, 1.0 / ratio)
         if lobes is Lobes.CONCERTINA:
             mean, shape = concertina_force(ratio) / stroke, 0.25 / (radius * effective_distance(ratio))
         else:
             mean, shape = 86.14 * ratio**0.33, 0.37 / radius
         return cls(
             lobes,
-            material.yield_stress * section.area,
+            material.yield_stress * section.area * rise(material, strain),
             mean * moment,
             stroke,
             _validity(lobes, material),
             crush_rate(shape, material),
             HALF_FOLD * wall * math.sqrt(ratio) if lobes is Lobes.CONCERTINA else None,
+            peak_strain=strain,
         )
 
     @property

@@ -27,6 +27,7 @@ from crumple.hinge.axial.axial_law import (
     crush_rate,
     flat_wall_moment,
 )
+from crumple.hinge.axial.hardened_peak import FLAT
 from crumple.hinge.axial.squash import HELD, squash_force
 from crumple.hinge.axial.superfolding import HALF_FOLD
 from crumple.hinge.law import Source, Trust
@@ -82,6 +83,7 @@ class SquareCrushing:
     validity: CrushValidity
     rate: CrushRate | None = None
     half_fold_length: float | None = None
+    peak_strain: float = 0.0
     source: Source = SOURCE
 
     @classmethod
@@ -93,7 +95,8 @@ class SquareCrushing:
         section
             Square tube; its outer side and wall are used.
         material
-            Flow stress for the mean force, yield stress for the peak, flow rate for the rate factor.
+            Flow stress for the mean force, yield stress and hardening for the peak, flow rate for the rate
+            factor.
         mode
             Folding mode, by enum or by its text.
 
@@ -114,15 +117,16 @@ class SquareCrushing:
         side, wall = section.width, section.thickness
         forces = mode_forces(side / wall)
         chosen = min(forces, key=lambda each: forces[each]) if wanted is Mode.LOWEST else wanted
-        walls = [(side - wall, wall, HELD)] * 4
+        walls, strain = [(side - wall, wall, HELD)] * 4, FLAT.strain(material, wall / (side - wall))
         return cls(
             chosen,
-            squash_force(walls, material),
+            squash_force(walls, material, strain),
             forces[chosen] * flat_wall_moment(material.flow_stress, wall),
             0.77 if chosen is Mode.EXTENSIONAL else 0.73,
             _validity(side / wall, chosen, material),
             crush_rate(RATE_SHAPE / side, material),
             None if chosen is Mode.EXTENSIONAL else HALF_FOLD * wall * (side / wall) ** (2.0 / 3.0),
+            peak_strain=strain,
         )
 
     @property

@@ -2,10 +2,11 @@
 
 Unknown: P, the sum of the wall forces at yield, each reduced to its effective width b_e:
 
-    P = s_y t sum(b_e),    b_e = b min(1, (1 - 0.22/lambda)/lambda),    lambda = sqrt(s_y/s_cr)
+    P = s_y t sum(b_e) f,  b_e = b min(1, (1 - 0.22/lambda)/lambda),    lambda = sqrt(s_y/s_cr)
     s_cr = k pi^2 E/(12 (1 - nu^2)) (t/b)^2,   k = 4 between two corners, 0.43 with one edge free
 
-b runs along the mid-line from corner to corner.  Limits: thick walls squash (lambda <= 0.673); a slender wall
+b runs along the mid-line from corner to corner; f is the rise of the force until the walls fold, 1 without
+hardening (`hardened_peak`).  Limits: thick walls squash (lambda <= 0.673); a slender wall
 carries t^2 sqrt(k pi^2 E s_y/(12 (1 - nu^2))) whatever its width.  No column buckling.
 """
 
@@ -13,6 +14,7 @@ from __future__ import annotations
 
 import math
 
+from crumple.hinge.axial.hardened_peak import rise
 from crumple.material import Material
 
 HELD, FREE = 4.0, 0.43
@@ -33,7 +35,10 @@ def effective_width(width: float, thickness: float, material: Material, coeffici
     return width * min(1.0, (1.0 - 0.22 / slenderness) / slenderness) if slenderness > 0.5 else width
 
 
-def squash_force(walls: list[tuple[float, float, float]], material: Material) -> float:
-    """Peak force [N] of walls (mid-line width [m], thickness [m], buckling coefficient)."""
+def squash_force(walls: list[tuple[float, float, float]], material: Material, strain: float = 0.0) -> float:
+    """Peak force [N] of walls (mid-line width [m], thickness [m], buckling coefficient).
+
+    `strain`: plastic strain at which they fold [-], see `hardened_peak`.
+    """
     carried = sum(effective_width(b, t, material, k) * t for b, t, k in walls)
-    return material.yield_stress * carried
+    return material.yield_stress * carried * rise(material, strain)

@@ -28,6 +28,7 @@ from crumple.hinge.axial.axial_law import (
     crush_rate,
     flat_wall_moment,
 )
+from crumple.hinge.axial.hardened_peak import FLAT
 from crumple.hinge.axial.squash import HELD, squash_force
 from crumple.hinge.law import Source, Trust
 from crumple.hinge.options import choice
@@ -75,6 +76,7 @@ class SuperfoldingCrushing:
     validity: CrushValidity
     rate: CrushRate | None = None
     crush_distance: CrushDistance = CrushDistance.EFFECTIVE
+    peak_strain: float = 0.0
     source: Source = SOURCE
 
     @classmethod
@@ -92,7 +94,8 @@ class SuperfoldingCrushing:
         section
             Rectangular tube; its outer sides and wall are used.
         material
-            Flow stress for the mean force, yield stress for the peak, flow rate for the rate factor.
+            Flow stress for the mean force, yield stress and hardening for the peak, flow rate for the rate
+            factor.
         crush_distance
             Option, by enum or by its text.
 
@@ -109,8 +112,9 @@ class SuperfoldingCrushing:
         stroke = 1.0 if distance is CrushDistance.FULL else EFFECTIVE_STROKE
         third = (side / wall) ** (1.0 / 3.0)
         sides = (section.width - wall, section.depth - wall)
+        strain = FLAT.strain(material, wall / (side - wall))
         return cls(
-            squash_force([(each, wall, HELD) for each in (*sides, *sides)], material),
+            squash_force([(each, wall, HELD) for each in (*sides, *sides)], material, strain),
             COEFFICIENT * third * flat_wall_moment(material.flow_stress, wall) / stroke,
             stroke,
             HALF_FOLD * wall * third**2,
@@ -118,6 +122,7 @@ class SuperfoldingCrushing:
             _validity(section, material),
             crush_rate(RATE_SHAPE / side, material),
             distance,
+            peak_strain=strain,
         )
 
     @property

@@ -64,6 +64,7 @@ class HatCrushing:
     rate: CrushRate | None = None
     effective_stroke: float = EFFECTIVE_STROKE
     half_fold_length: float | None = None
+    peak_strain: float = 0.0
     source: Source = SOURCE
 
     @classmethod

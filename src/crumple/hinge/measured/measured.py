@@ -244,6 +244,7 @@ class MeasuredCrushing:
     name: str = "measured"
     title: str = "measured crushing"
     half_fold_length: float | None = None
+    peak_strain: float = 0.0
     rate: CrushRate | None = None
 
 

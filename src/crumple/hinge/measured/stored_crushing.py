@@ -28,8 +28,8 @@ class StoredCrushing:
 
     Attributes
     ----------
-    peak_force, mean_crushing_force, effective_stroke, rate, half_fold_length
-        See `AxialLaw`; without a rate.
+    peak_force, mean_crushing_force, effective_stroke, rate, half_fold_length, peak_strain
+        See `AxialLaw`; without a rate, and the strain at the peak is not known.
 
     References
     ----------
@@ -45,6 +45,7 @@ class StoredCrushing:
     mean_crushing_force: float
     effective_stroke: float
     half_fold_length: float | None = None
+    peak_strain: float = 0.0
     rate: CrushRate | None = None
 
     @classmethod

@@ -66,6 +66,21 @@ class DrivenShare:
 
 
 @dataclass(frozen=True)
+class Spread:
+    """Slip that spreads over the member before a fold or a neck has it, and does not soften the hinge.
+
+    Attributes
+    ----------
+    lengthening, shortening
+        Largest slip so far in either sense [m], strictly increasing from 0, and share of the capacity in
+        this sense [-], not falling, up to 1 at the end of the spread; each of shape (n,), empty: none.
+    """
+
+    lengthening: tuple[Floats, Floats]
+    shortening: tuple[Floats, Floats]
+
+
+@dataclass(frozen=True)
 class HingeComponent:
     """Curves of both senses, stiffness, rate factor, damper and stops about or along one axis.
 
@@ -82,12 +97,16 @@ class HingeComponent:
         hinge as those about the driver.
     worn
         Of an ellipsoid: share of the capacity about this axis that is gone, at least 0.
+    spread
+        Of the axial freedom, where the components share one measure of softening: the record then begins at
+        the end of the spread.
     """
 
     freedom: Freedom
     record: HingeRecord
     shift: DrivenShare | None = None
     worn: DrivenShare | None = None
+    spread: Spread | None = None
 
 
 @dataclass(frozen=True, eq=False)

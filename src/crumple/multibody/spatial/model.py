@@ -156,6 +156,9 @@ def _part(spatial: SpatialHingeRecord, part: HingeComponent) -> SpatialComponent
         plain = replace(plain, driver=index(shift.driver), shift=(shift.rotation, shift.share))
     if worn is not None:
         plain = replace(plain, driver=index(worn.driver), worn=(worn.rotation, worn.share))
+    if part.spread is not None:
+        both = part.spread
+        plain = replace(plain, positive_spread=both.lengthening, negative_spread=both.shortening)
     return plain
 
 

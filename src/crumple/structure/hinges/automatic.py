@@ -6,6 +6,8 @@ can carry a moment.  Members in line that are one tube (straight_runs) count as 
 is a candidate only if it is a kink, or an obstacle strikes there.  Obstacles also strike members between
 their nodes: a candidate lies there (struck_places) if no other is within one fold.  Braced members carry
 forces along their axis and buckle with a hinge between those at their ends: a candidate lies in their middle.
+Members of metal that hardens which an impact presses along their axes (pressed) may kink: two candidates lie
+between those at their ends.
 Distributed inertia and long spans bend members in between: `spacing` puts further candidates there.  A
 candidate that is never loaded to its capacity stays rigid, and changes nothing.
 
@@ -27,11 +29,10 @@ from crumple.section import Axis, half_fold_length
 from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import FOLDS, automatic_of, folds_at_ends
 from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
-from crumple.structure.hinges.joint_reach import strikes_joint
 from crumple.structure.hinges.law_choice import UNKNOWN, Surroundings, component_text
 from crumple.structure.hinges.lengthening.braced import braced
 from crumple.structure.hinges.lengthening.held_runs import held_runs, pushed_runs
-from crumple.structure.hinges.lengthening.stopped import stopped
+from crumple.structure.hinges.lengthening.pressed import struck_along
 from crumple.structure.hinges.runs.bars import is_closed, welded_to_another
 from crumple.structure.hinges.runs.candidates import Candidate, Strike, candidates_on
 from crumple.structure.hinges.runs.straight_runs import straight_run
@@ -121,7 +122,7 @@ def _slip(structure: StructureParts, member: str) -> AxialSlip:
     """
     law = FOLDING.get(structure.section_of(member).kind)
     pressed = braced(structure) | pushed_runs(structure)
-    folds = _struck_along(structure, member) or member in pressed
+    folds = struck_along(structure, member) or member in pressed
     if law is None or not folds or component_text(structure, member, "crush"):
         return AxialSlip()
     return AxialSlip(law=law)
@@ -133,14 +134,9 @@ def lengthens(structure: StructureParts, member: str) -> bool:
     unsaid = asked is not None and "axial" not in asked.model_fields_set
     if not unsaid:
         return False
-    if _struck_along(structure, member):
+    if struck_along(structure, member):
         return True
     return member in held_runs(structure) or member in braced(structure)
-
-
-def _struck_along(structure: StructureParts, member: str) -> bool:
-    """Whether an impact presses the members together along their axes."""
-    return bool(structure.members[member].elastic) and (strikes_joint(structure) or stopped(structure))
 
 
 def twists(structure: StructureParts, member: str) -> bool:

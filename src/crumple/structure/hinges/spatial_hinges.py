@@ -18,10 +18,17 @@ from crumple.hinge import (
     record_of,
 )
 from crumple.hinge.axial.axial_collapse import AxialCollapse
+from crumple.hinge.axial.hardened_peak import strain_at
 from crumple.hinge.measured.stored import StoredLaw
 from crumple.hinge.measured.stored_crushing import StoredCrushing
-from crumple.hinge.record.record import Envelope
-from crumple.hinge.record.spatial_record import Coupling, Freedom, HingeComponent, SpatialHingeRecord
+from crumple.hinge.record.record import Envelope, Form
+from crumple.hinge.record.spatial_record import (
+    Coupling,
+    Freedom,
+    HingeComponent,
+    SpatialHingeRecord,
+    Spread,
+)
 from crumple.hinge.record.spatial_recording import scaled, spatial_record
 from crumple.hinge.registry import DEFAULT_TORSION, OPEN_TORSION
 from crumple.material import Material
@@ -93,9 +100,13 @@ def spatial_hinge_record(
             power = ROUND_FLAT if isinstance(section, CircularTube) else FLAT
             twist = flattened(twist, [component.record for component in components], power)
         components.append(HingeComponent(Freedom.X, twist))
-    if keys.axial is not None:
-        components.append(HingeComponent(Freedom.AXIAL, _axial(keys.axial, crush, first, metal, shares)))
     coupling = Coupling(keys.coupling or "section")
+    if keys.axial is not None:
+        law_of_slip, slip = _axial(keys.axial, crush, first, metal, shares)
+        alone = coupling.value in APART or slip.form is Form.REGULARISED
+        components.append(
+            HingeComponent(Freedom.AXIAL, slip) if alone else _after_rise(law_of_slip, slip, first)
+        )
     if coupling is Coupling.SECTION and isinstance(section, CircularTube) and keys.axial is None:
         # its walls share every moment alike, so the ellipsoid is their interaction and needs no fit
         coupling = Coupling.ELLIPSOID
@@ -197,34 +208,53 @@ def _axial(
     first: HingeRecord,
     metal: tuple[Section, Material],
     shares: HingeShares,
-) -> HingeRecord:
+) -> tuple[AxialCollapse, HingeRecord]:
+    """Law of the slip, and its record as if it had no other component beside it."""
     section, material = metal
-    law = _collapse(keys, stored, section, material, shares.stretch)
+    law = _collapse(keys, stored, metal, shares.stretch, shares.axial)
     elastic = material.youngs_modulus * section.area / shares.axial
-    return _like(first, law, elastic, one_sided=True)
+    return law, _like(first, law, elastic, one_sided=True)
+
+
+def _after_rise(law: AxialCollapse, record: HingeRecord, first: HingeRecord) -> HingeComponent:
+    """Slip that shares its measure of softening with other components: its rise counts apart."""
+    if not any(slip for slip, _ in law.rises):
+        return HingeComponent(Freedom.AXIAL, record)
+    lengthening, shortening = ((np.array(slip), np.array(share)) for slip, share in law.rises)
+    later = _like(first, law.folding, record.elastic_stiffness, one_sided=True)
+    return HingeComponent(Freedom.AXIAL, later, spread=Spread(lengthening, shortening))
 
 
 @remembered(KEPT)
 def _collapse(
-    keys: AxialSlip, stored: StoredLaw | None, section: Section, material: Material, length: float
+    keys: AxialSlip,
+    stored: StoredLaw | None,
+    metal: tuple[Section, Material],
+    length: float,
+    spread: float,
 ) -> AxialCollapse:
+    """Law of a slip: folds along a length [m], before which the metal hardens over another."""
+    section, material = metal
     stiffness = material.youngs_modulus * section.area / length
     squash = interaction_of(section, material).squash_force
-    tension = keys.tension or squash
+    tension, neck = keys.tension or squash, keys.tension is None
     crushing: AxialLaw | None = None
     if keys.law is not None:
         crushing = build_axial_law(keys.law, section, material)
     elif keys.yields and stored is not None:
         crushing = StoredCrushing.of(stored)
-    if crushing is not None:
-        return AxialCollapse.of(crushing, length, tension=tension, closed_stiffness=stiffness)
-    return AxialCollapse.given(
-        keys.peak or squash,
-        keys.mean or squash,
-        keys.stroke or math.inf,
-        tension=tension,
-        closed_stiffness=stiffness,
-    )
+    if crushing is None:
+        law = AxialCollapse.given(
+            keys.peak or squash,
+            keys.mean or squash,
+            keys.stroke or math.inf,
+            tension=tension,
+            closed_stiffness=stiffness,
+        )
+        return law.hardening(material, 0.0, spread, neck=neck)
+    strain = crushing.peak_strain or strain_at(material, crushing.peak_force / squash)
+    law = AxialCollapse.of(crushing, length, tension=tension, closed_stiffness=stiffness)
+    return law.hardening(material, strain, spread, neck=neck)
 
 
 @remembered(KEPT)

@@ -9,6 +9,7 @@ from crumple.analysis import loads, solve
 from crumple.comparison import with_frames
 from crumple.comparison.measure.energy import distortions, hinge_work
 from crumple.comparison.measure.measures import measure
+from crumple.hinge import build_axial_law
 from crumple.structure import with_elastic_members
 
 TEXT = """crumple: 1
@@ -103,3 +104,48 @@ def test_a_corner_that_slips_in_its_plane_turns_about_one_axis_and_distorts_noth
     assert "hinge.corner-corner.slip.x.force" in result.channels
     assert "hinge.corner-corner.moment.x" not in result.channels
     assert list(distortions(result, structure)) == []
+
+
+COLUMN = """crumple: 1
+materials:
+  steel:
+    youngs_modulus: 210 GPa
+    poissons_ratio: 0.3
+    density: 7850 kg/m^3
+    yield_stress: 280 MPa
+    hardening: {type: swift, prestrain: 0.008, exponent: 0.16}
+sections: {tube: {type: square_tube, side: 40 mm, thickness: 2 mm}}
+nodes: {foot: [0 m, 0 m, 0 m], head: [0 m, 0 m, 0.3 m]}
+members: {column: {nodes: [foot, head], section: tube, material: steel}}
+hinges: {axial: {law: superfolding}}
+supports:
+  foot: {node: foot, fix: all}
+  head: {node: head, fix: [x, y, rx, ry, rz], motion: {z: {havsin: {x0: 0 s, h0: 0 m, x1: 50 ms, h1: WAY}}}}
+analysis: {duration: 50 ms}
+outputs: {every: 0.1 ms, nodes: [head]}
+"""
+
+
+@pytest.mark.parametrize(("way", "even"), [("-4 mm", True), ("-12 mm", False)])
+def test_what_a_column_takes_before_it_folds_is_spread_evenly_over_it(way, even):
+    analysis = loads(COLUMN.replace("WAY", way), file="column.yaml", directory=".")
+    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
+    result = solve(with_frames(analysis))
+    works = [(at, energy) for _, at, energy in hinge_work(result, structure)]
+    total = float(result["energy.dissipated"][-1])
+    assert sum(energy for _, energy in works) == pytest.approx(total, rel=1e-3)
+    lower = sum(energy for at, energy in works if at < 0.15)
+    middle = sum(energy for at, energy in works if 0.1 < at < 0.2)
+    # the integral of the hardening curve up to the plastic part of 4 mm, or to the peak of the force
+    column = structure.section_of("column"), structure.material_of("column")
+    peak = build_axial_law("superfolding", *column).peak_strain
+    strain = np.linspace(0.0, 0.004 / 0.3 - 323e6 / 210e9 if even else peak, 1001)
+    uniform = 304e-6 * 0.3 * np.trapezoid(280e6 * (1.0 + strain / 0.008) ** 0.16 * np.exp(strain), strain)
+    if even:
+        assert max(energy for _, energy in works) < 0.03 * total
+        assert total == pytest.approx(uniform, rel=0.02)
+        assert lower == pytest.approx(total / 2.0, rel=0.02)
+        assert middle == pytest.approx(total / 3.0, rel=0.05)
+    else:
+        folded = sum(energy for _, energy in works if energy > 0.03 * total)
+        assert total - folded == pytest.approx(uniform, rel=0.03)

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from crumple.analysis import loads
+from crumple.analysis import loads, solve
 from crumple.hinge import Coupling, Freedom
 from crumple.structure import placed_hinges
 from crumple.structure.hinges.elastic_members import with_elastic_members
@@ -36,9 +36,9 @@ FOLD = 0.7 - 35.0 * math.sin(HALF) * 2.0 / 48.0
 """Arm of the corner's fold over the distance of the tension flange."""
 
 
-def corner(hinges="auto", obstacles=WALL, members="elastic", wall="2 mm"):
+def corner(hinges="auto", obstacles=WALL, members="elastic", wall="2 mm", text=RAIL):
     text = (
-        RAIL.replace("HINGES", hinges)
+        text.replace("HINGES", hinges)
         .replace("OBSTACLES", obstacles)
         .replace("MEMBERS", members)
         .replace("GAUGE", wall)
@@ -120,6 +120,20 @@ def test_in_space_compression_takes_from_the_moment_in_the_plane_in_proportion()
             assert surface.gauge(both + across) == pytest.approx(math.sqrt(2.0), rel=0.06)
     assert surface.gauge(0.6 * m + 0.8 * across) == pytest.approx(1.0, rel=0.06)
     assert surface.gauge(0.6 * m + 0.8 * t) == pytest.approx(1.0, rel=1e-9)
+
+
+def test_a_corner_of_metal_that_hardens_folds_at_once_in_compression_and_hardens_in_tension():
+    hard = "yield_stress: 350 MPa, hardening: {type: swift, prestrain: 0.01, exponent: 0.1}"
+    hinge = corner(SPACE, text=RAIL.replace("yield_stress: 350 MPa", hard))
+    slip = {part.freedom: part for part in hinge.spatial.components}[Freedom.AXIAL]
+    assert slip.spread.shortening[0].size == 0
+    assert slip.spread.lengthening[0].size > 2
+    at_first = slip.spread.lengthening[1][0] * slip.record.positive.moment[0]
+    assert at_first == pytest.approx(350e6 * (0.05**2 - 0.046**2), rel=1e-9)
+    # the kernel takes it
+    text = RAIL.replace("yield_stress: 350 MPa", hard).replace("GAUGE", "2 mm").replace("HINGES", SPACE)
+    read = loads(text.replace("OBSTACLES", WALL).replace("MEMBERS", "elastic"))
+    assert solve(read).status.ok
 
 
 def test_the_force_that_a_corner_carries_in_space_falls_as_its_fold_grows():

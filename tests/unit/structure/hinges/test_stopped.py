@@ -7,7 +7,8 @@ import pytest
 
 from crumple.analysis import loads, solve
 from crumple.errors import InputError
-from crumple.structure import hinge_places, with_elastic_members
+from crumple.hinge import Freedom, build_axial_law
+from crumple.structure import hinge_places, placed_hinges, with_elastic_members
 from crumple.structure.hinges.lengthening.stopped import LOST, lost_share
 
 FRAME = """crumple: 1
@@ -171,3 +172,68 @@ def test_names_that_are_not_there_are_refused_where_members_are_elastic(old, new
     assert old in text
     with pytest.raises(InputError, match=message):
         loads(text.replace(old, new))
+
+
+HARDENS = (
+    "yield_stress: 300 MPa",
+    "yield_stress: 300 MPa, hardening: {type: swift, prestrain: 0.01, exponent: 0.1}",
+)
+RAM = (
+    ("[-0.1 m, 0 m, 0 m], normal: [1, 0, 0]", "[-30 mm, 0 m, 0 m], normal: [1, 0, 0], mass: 300 kg, MOVES"),
+    ("MOVES", "velocity: [5 m/s, 0 m/s, 0 m/s]"),
+    ("initial_velocity: [{translation: [-5 m/s, 0 m/s, 0 m/s]}]", ""),
+)
+
+
+def candidates(text, *changes):
+    """Number of hinges by member."""
+    for old, new in changes:
+        assert old in text, old
+        text = text.replace(old, new)
+    read = loads(text)
+    whole = with_elastic_members(read.structure, read.multibody, read.time_in_motion)
+    return {name: sum(place.member == name for place in hinge_places(whole)) for name in whole.members}
+
+
+@pytest.mark.parametrize("ram", [(), RAM], ids=["thrown at a wall", "struck by a ram"])
+def test_members_pressed_along_their_axes_may_kink_where_their_metal_hardens(ram):
+    plain, hard = candidates(FRAME, *ram), candidates(FRAME, HARDENS, *ram)
+    added = {name: hard[name] - plain[name] for name in plain}
+    assert added == {"tip": 0, "front": 0, "left_rail": 2, "right_rail": 2}
+
+
+def test_what_swings_across_its_axis_does_not_kink():
+    across = ("[-5 m/s, 0 m/s, 0 m/s]", "[-1 m/s, 0 m/s, 5 m/s]")
+    assert candidates(FRAME, HARDENS, across) == candidates(FRAME, across)
+
+
+def test_metal_that_hardens_yields_along_its_length_before_a_hinge_folds_and_at_once_otherwise():
+    for change, strain in (((), 0.0), ((HARDENS,), None)):
+        text = RAIL
+        for old, new in change:
+            text = text.replace(old, new)
+        read = loads(text)
+        whole = with_elastic_members(read.structure, read.multibody, read.time_in_motion)
+        slips = [
+            part
+            for hinge in placed_hinges(whole)
+            if hinge.spatial is not None
+            for part in hinge.spatial.components
+            if part.freedom is Freedom.AXIAL
+        ]
+        if strain == 0.0:
+            assert all(part.spread is None for part in slips)
+            continue
+        material = whole.material_of("rail")
+        law = build_axial_law("superfolding", whole.section_of("rail"), material)
+        ends = [part.spread.shortening[0][-1] for part in slips]
+        # together they stand for all of the rail
+        assert sum(ends) == pytest.approx(law.peak_strain * 0.4, rel=1e-9)
+        for part in slips:
+            assert part.record.negative.moment[0] == pytest.approx(law.peak_force, rel=1e-9)
+            assert part.spread.shortening[1][0] == pytest.approx(
+                300e6 * 0.152 * 2e-3 / law.peak_force, rel=1e-9
+            )
+            assert part.spread.lengthening[0][-1] / part.spread.shortening[0][-1] == pytest.approx(
+                0.09 / law.peak_strain, rel=0.05
+            )

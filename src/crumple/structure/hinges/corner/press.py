@@ -71,7 +71,12 @@ def with_corner_press(
     )
 
     def own(component: HingeComponent) -> HingeComponent:
-        return replace(component, record=pressed) if component.freedom is Freedom.AXIAL else component
+        if component.freedom is not Freedom.AXIAL:
+            return component
+        spread = component.spread
+        # the corner folds before its members yield in compression
+        pulled = spread and replace(spread, shortening=(np.zeros(0), np.zeros(0)))
+        return replace(component, record=pressed, spread=pulled)
 
     order = record.freedoms
     columns = [order.index(Freedom.AXIAL), order.index(in_plane), order.index(Freedom[corner.across.upper()])]

@@ -17,6 +17,7 @@ from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.law_choice import UNKNOWN, Surroundings, distance_of_fold
 from crumple.structure.hinges.lengthening.braced import braced
 from crumple.structure.hinges.lengthening.held_runs import pushed_runs
+from crumple.structure.hinges.lengthening.pressed import kinks_pressed
 from crumple.structure.hinges.lengthening.stopped import stopped
 from crumple.structure.hinges.runs.ends import carries_moment, passes_moment
 from crumple.structure.hinges.runs.straight_runs import StraightRun
@@ -33,6 +34,9 @@ MOST_INSIDE = 0.3
 STRAIGHT = 5e-3
 """Angle between members in line [rad] up to which a node between them is not a place of its own: far above
 rounded coordinates, and far below the kinks by which a polygon stands for a curved member."""
+KINKED = 3
+"""Parts between the candidates of a member that may kink: shells have a fold beside one end and another 0.15
+to 0.5 of the length from it."""
 FREE = Surroundings("free")
 """Of a fold between those beside the ends of its run."""
 
@@ -136,6 +140,9 @@ def _candidates(
     # what is pressed between free ends folds somewhere
     pressed_free = not first_held and not last_held and stopped(structure)
     number = max(2, number) if pressed_free and structure.members[names[0]].elastic else number
+    # and one of metal that hardens kinks where an impact presses it
+    kinks = not struck and kinks_pressed(structure, names[0])
+    number = max(KINKED, number) if kinks else number
     between = np.linspace(first, last, number + 1)[1:-1].tolist()
     if first_held:
         span = _span(end - start, [at - start for at in loaded], held[1])
