@@ -1,13 +1,13 @@
 """Axial slip of a hinge: force against shortening of a column that folds, and yield in tension.
 
 Unknown: the force P(u) over the shortening u, from a peak P_0, a mean P_m over the stroke S, and the half
-length H of a fold, which takes up d = 2 H S/l of a column of length l.  Walls that turn by a small angle t
-shorten by u ~ H t^2 and have a lever arm H t: a mechanism of constant moments has P ~ 1/t ~ u^(-1/2), and the
-walls carry no more than their yield.  A fold takes the work P_m d whatever its first force, which gives u_0:
+length H of a fold, which takes up d = 2 H S/l of a column of length l; the first one has the mean P_1, which
+is P_m or less.  Walls that turn by a small angle t shorten by u ~ H t^2 and have a lever arm H t: a mechanism
+of constant moments has P ~ 1/t ~ u^(-1/2), and the walls carry no more than their yield.  A fold takes the work P_1 d whatever its first force, which gives u_0:
 
-    P = P_0                    0 <= u < u_0 = x^2 d,     x = 1 - sqrt(1 - P_m/P_0)
-    P = P_0 sqrt(u_0/u)        u_0 <= u < d,             P_0 d (2 x - x^2) = P_m d
-    P = P_m                    d <= u < S;  from x P_0 linearly over half of d - u_0, with d in its middle
+    P = P_0 to 0.95 P_0        0 <= u < u_0 = x^2 d,     linearly
+    P = 0.95 P_0 sqrt(u_0/u)   u_0 <= u < d,             x such that the mean over d is P_1
+    P = P_m                    d <= u < S;  from 0.95 x P_0 linearly, over half of d - u_0 about d
     stop at u = S
 
 Further folds make the force swing about P_m; that is left out.  Without H the force falls linearly over 5 %
@@ -43,6 +43,8 @@ FIRST_FALL = 0.05
 """Share of the stroke over which the peak falls where no fold length is known."""
 PIECES = 8
 """Straight pieces of P_0 sqrt(u_0/u)."""
+END = 0.95
+"""Force at u_0 over P_0: a force that falls a little is found in one of several equal hinges of a member."""
 
 
 _Curve = tuple[tuple[float, ...], tuple[float, ...]]
@@ -102,7 +104,7 @@ class AxialCollapse:
         stroke: float,
         *,
         tension: float | None = None,
-        fold: float | None = None,
+        fold: tuple[float, float] | None = None,
         closed_stiffness: float = 0.0,
     ) -> AxialCollapse:
         """Collapse with given forces.
@@ -114,7 +116,7 @@ class AxialCollapse:
         tension
             Force in tension [N]; the peak without it.
         fold
-            Shortening of the first fold [m], the stroke at most.
+            Shortening of the first fold [m], the stroke at most, and its mean force over the mean, at most 1.
         closed_stiffness
             Spring of the closed folds [N/m]; 0: no stop.
 
@@ -141,7 +143,9 @@ class AxialCollapse:
             raise InputError(problems)
         stop = Stop(stroke, closed_stiffness) if closed_stiffness > 0.0 and math.isfinite(stroke) else None
         curve = (
-            _linear(peak, mean, stroke) if fold is None else _folding(peak, mean, min(fold, stroke), stroke)
+            _linear(peak, mean, stroke)
+            if fold is None
+            else _folding((peak, fold[1] * mean, mean), min(fold[0], stroke), stroke)
         )
         return cls(peak, mean, stroke, numbers["tension"], curve, stop)
 
@@ -162,7 +166,7 @@ class AxialCollapse:
             mean,
             law.effective_stroke * length,
             tension=tension,
-            fold=None if half is None else 2.0 * half * law.effective_stroke,
+            fold=None if half is None else (2.0 * half * law.effective_stroke, law.first_fold),
             closed_stiffness=closed_stiffness,
         )
         rate = None
@@ -233,22 +237,32 @@ def _linear(peak: float, mean: float, stroke: float) -> _Curve:
     return (0.0, fall), (peak, (mean * stroke - peak * fall / 2.0) / (stroke - fall / 2.0))
 
 
-def _folding(peak: float, mean: float, fold: float, stroke: float) -> _Curve:
-    """The curve of the module's docstring in straight pieces of the same work."""
-    if mean == peak:
+def _folding(forces: tuple[float, float, float], fold: float, stroke: float) -> _Curve:
+    """The curve of the module's docstring in straight pieces of the same work.
+
+    Parameters
+    ----------
+    forces
+        Peak, mean of the first fold, and mean of the others.
+    fold, stroke
+        Shortening of the first fold, and of all of them.
+    """
+    peak, first, mean = forces
+    if first == peak:
         return (0.0,), (peak,)
-    least = 1.0 - math.sqrt(1.0 - mean / peak)
+    least, end = 1.0 - math.sqrt(1.0 - first / peak), max(END, first / peak)
 
     def curve(x: float) -> _Curve:
         """With the plateau x^2 of the fold; that of a single fold does not rise at its end."""
         rise = 0.0 if fold >= stroke else (1.0 - x**2) * fold / 4.0
         at = np.geomspace(x**2 * fold, fold - rise, PIECES + 1)
-        end = () if fold >= stroke else ((fold + rise, mean),)
-        force = peak * x * np.sqrt(fold / at)
-        return (0.0, *at.tolist(), *(u for u, _ in end)), (peak, *force.tolist(), *(p for _, p in end))
+        last = () if fold >= stroke else ((fold + rise, mean),)
+        force = end * peak * x * np.sqrt(fold / at)
+        return (0.0, *at.tolist(), *(u for u, _ in last)), (peak, *force.tolist(), *(p for _, p in last))
 
     def excess(x: float) -> float:
         at, force = curve(x)
-        return float(np.diff(at) @ (np.add(force[1:], force[:-1]) / 2.0)) / (mean * at[-1]) - 1.0
+        wanted = first * fold + mean * (at[-1] - fold)
+        return float(np.diff(at) @ (np.add(force[1:], force[:-1]) / 2.0)) / wanted - 1.0
 
-    return curve(rising_root(excess, 0.5 * least, least, 1e-9))
+    return curve(rising_root(excess, 0.5 * least, 0.5 * (1.0 + least), 1e-9))
