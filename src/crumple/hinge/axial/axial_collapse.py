@@ -3,7 +3,8 @@
 Unknown: the force P(u) over the shortening u, from a peak P_0, a mean P_m over the stroke S, and the half
 length H of a fold, which takes up d = 2 H S/l of a column of length l; the first one has the mean P_1, which
 is P_m or less.  Walls that turn by a small angle t shorten by u ~ H t^2 and have a lever arm H t: a mechanism
-of constant moments has P ~ 1/t ~ u^(-1/2), and the walls carry no more than their yield.  A fold takes the work P_1 d whatever its first force, which gives u_0:
+of constant moments has P ~ 1/t ~ u^(-1/2), and the walls carry no more than their yield.  A fold takes the
+work P_1 d whatever its first force, which gives u_0:
 
     P = P_0 to 0.95 P_0        0 <= u < u_0 = x^2 d,     linearly
     P = 0.95 P_0 sqrt(u_0/u)   u_0 <= u < d,             x such that the mean over d is P_1
