@@ -1,13 +1,12 @@
 """Axial slip of a hinge: force against shortening of a column that folds, and yield in tension.
 
 Unknown: the force P(u) over the shortening u, from a peak P_0, a mean P_m over the stroke S, and the half
-length H of a fold, which takes up d = 2 H S/l of a column of length l; the first one has the mean P_1, which
-is P_m or less.  Walls that turn by a small angle t shorten by u ~ H t^2 and have a lever arm H t: a mechanism
-of constant moments has P ~ 1/t ~ u^(-1/2), and the walls carry no more than their yield.  A fold takes the
-work P_1 d whatever its first force, which gives u_0:
+length H of a fold, which takes up d = 2 H S/l of a column of length l.  Walls that turn by a small angle t
+shorten by u ~ H t^2 and have a lever arm H t: a mechanism of constant moments has P ~ 1/t ~ u^(-1/2), and the
+walls carry no more than their yield.  A fold takes the work P_m d whatever its first force, which gives u_0:
 
     P = P_0 to 0.95 P_0        0 <= u < u_0 = x^2 d,     linearly
-    P = 0.95 P_0 sqrt(u_0/u)   u_0 <= u < d,             x such that the mean over d is P_1
+    P = 0.95 P_0 sqrt(u_0/u)   u_0 <= u < d,             x such that the mean over d is P_m
     P = P_m                    d <= u < S;  from 0.95 x P_0 linearly, over half of d - u_0 about d
     stop at u = S
 
@@ -105,7 +104,7 @@ class AxialCollapse:
         stroke: float,
         *,
         tension: float | None = None,
-        fold: tuple[float, float] | None = None,
+        fold: float | None = None,
         closed_stiffness: float = 0.0,
     ) -> AxialCollapse:
         """Collapse with given forces.
@@ -117,7 +116,7 @@ class AxialCollapse:
         tension
             Force in tension [N]; the peak without it.
         fold
-            Shortening of the first fold [m], the stroke at most, and its mean force over the mean, at most 1.
+            Shortening of the first fold [m], the stroke at most.
         closed_stiffness
             Spring of the closed folds [N/m]; 0: no stop.
 
@@ -144,9 +143,7 @@ class AxialCollapse:
             raise InputError(problems)
         stop = Stop(stroke, closed_stiffness) if closed_stiffness > 0.0 and math.isfinite(stroke) else None
         curve = (
-            _linear(peak, mean, stroke)
-            if fold is None
-            else _folding((peak, fold[1] * mean, mean), min(fold[0], stroke), stroke)
+            _linear(peak, mean, stroke) if fold is None else _folding(peak, mean, min(fold, stroke), stroke)
         )
         return cls(peak, mean, stroke, numbers["tension"], curve, stop)
 
@@ -167,7 +164,7 @@ class AxialCollapse:
             mean,
             law.effective_stroke * length,
             tension=tension,
-            fold=None if half is None else (2.0 * half * law.effective_stroke, law.first_fold),
+            fold=None if half is None else 2.0 * half * law.effective_stroke,
             closed_stiffness=closed_stiffness,
         )
         rate = None
@@ -238,20 +235,11 @@ def _linear(peak: float, mean: float, stroke: float) -> _Curve:
     return (0.0, fall), (peak, (mean * stroke - peak * fall / 2.0) / (stroke - fall / 2.0))
 
 
-def _folding(forces: tuple[float, float, float], fold: float, stroke: float) -> _Curve:
-    """The curve of the module's docstring in straight pieces of the same work.
-
-    Parameters
-    ----------
-    forces
-        Peak, mean of the first fold, and mean of the others.
-    fold, stroke
-        Shortening of the first fold, and of all of them.
-    """
-    peak, first, mean = forces
-    if first == peak:
+def _folding(peak: float, mean: float, fold: float, stroke: float) -> _Curve:
+    """The curve of the module's docstring in straight pieces of the same work."""
+    if mean == peak:
         return (0.0,), (peak,)
-    least, end = 1.0 - math.sqrt(1.0 - first / peak), max(END, first / peak)
+    least, end = 1.0 - math.sqrt(1.0 - mean / peak), max(END, mean / peak)
 
     def curve(x: float) -> _Curve:
         """With the plateau x^2 of the fold; that of a single fold does not rise at its end."""
@@ -263,7 +251,6 @@ def _folding(forces: tuple[float, float, float], fold: float, stroke: float) -> 
 
     def excess(x: float) -> float:
         at, force = curve(x)
-        wanted = first * fold + mean * (at[-1] - fold)
-        return float(np.diff(at) @ (np.add(force[1:], force[:-1]) / 2.0)) / wanted - 1.0
+        return float(np.diff(at) @ (np.add(force[1:], force[:-1]) / 2.0)) / (mean * at[-1]) - 1.0
 
     return curve(rising_root(excess, 0.5 * least, 0.5 * (1.0 + least), 1e-9))

@@ -76,8 +76,6 @@ class AxialLaw(Protocol):
         Shortening over length [-] at which the folds are closed.
     half_fold_length
         H [m], or None if the law does not give it.
-    first_fold
-        Mean force of the first fold over the mean force [-].
     rate
         Rate law of the mean force, or None.
     """
@@ -101,8 +99,6 @@ class AxialLaw(Protocol):
     @property
     def half_fold_length(self) -> float | None: ...
     @property
-    def first_fold(self) -> float: ...
-    @property
     def rate(self) -> CrushRate | None: ...
 
 
@@ -116,10 +112,6 @@ def rate_factor_of(law: AxialLaw, impact_speed: ArrayLike) -> Floats:
     if law.rate is None:
         return np.ones_like(np.asarray(impact_speed, np.float64))
     return law.rate.factor(impact_speed)
-
-
-SLENDER = 20.0
-"""Width over thickness above which the first fold of a square tube takes less force than the others."""
 
 
 class CrushDistance(Enum):
@@ -137,15 +129,6 @@ def crush_rate(shape: float, material: Material) -> CrushRate | None:
     if pair is not None and not isinstance(pair, CowperSymonds):
         pair = pair.as_cowper_symonds()
     return None if pair is None else CrushRate(shape, pair)
-
-
-def first_fold_of_flat_walls(ratio: float) -> float:
-    """Mean force of the first fold of a square tube over that of all of them [-].
-
-    Walls of width over thickness b/t above 20 fold with less force at first, (20 t/b)^0.3: read off columns
-    in shells with b/t from 11 to 47, docs/theory/axial_crushing.md.  `ratio` is t/b.
-    """
-    return float(min(1.0, (SLENDER * ratio) ** 0.3))
 
 
 def flat_wall_moment(flow_stress: float, thickness: float) -> float:

@@ -83,7 +83,6 @@ class CircularCrushing:
     rate: CrushRate | None = None
     half_fold_length: float | None = None
     peak_strain: float = 0.0
-    first_fold: float = 1.0
     source: Source = SOURCE
 
     @classmethod

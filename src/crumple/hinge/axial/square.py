@@ -25,7 +25,6 @@ from crumple.hinge.axial.axial_law import (
     CrushRate,
     CrushValidity,
     crush_rate,
-    first_fold_of_flat_walls,
     flat_wall_moment,
 )
 from crumple.hinge.axial.hardened_peak import FLAT
@@ -85,7 +84,6 @@ class SquareCrushing:
     rate: CrushRate | None = None
     half_fold_length: float | None = None
     peak_strain: float = 0.0
-    first_fold: float = 1.0
     source: Source = SOURCE
 
     @classmethod
@@ -129,7 +127,6 @@ class SquareCrushing:
             crush_rate(RATE_SHAPE / side, material),
             None if chosen is Mode.EXTENSIONAL else HALF_FOLD * wall * (side / wall) ** (2.0 / 3.0),
             peak_strain=strain,
-            first_fold=first_fold_of_flat_walls(wall / (side - wall)),
         )
 
     @property

@@ -26,7 +26,6 @@ from crumple.hinge.axial.axial_law import (
     CrushRate,
     CrushValidity,
     crush_rate,
-    first_fold_of_flat_walls,
     flat_wall_moment,
 )
 from crumple.hinge.axial.hardened_peak import FLAT
@@ -78,7 +77,6 @@ class SuperfoldingCrushing:
     rate: CrushRate | None = None
     crush_distance: CrushDistance = CrushDistance.EFFECTIVE
     peak_strain: float = 0.0
-    first_fold: float = 1.0
     source: Source = SOURCE
 
     @classmethod
@@ -125,7 +123,6 @@ class SuperfoldingCrushing:
             crush_rate(RATE_SHAPE / side, material),
             distance,
             peak_strain=strain,
-            first_fold=first_fold_of_flat_walls(wall / (side - wall)),
         )
 
     @property

@@ -65,7 +65,6 @@ class HatCrushing:
     effective_stroke: float = EFFECTIVE_STROKE
     half_fold_length: float | None = None
     peak_strain: float = 0.0
-    first_fold: float = 1.0
     source: Source = SOURCE
 
     @classmethod

@@ -245,7 +245,6 @@ class MeasuredCrushing:
     title: str = "measured crushing"
     half_fold_length: float | None = None
     peak_strain: float = 0.0
-    first_fold: float = 1.0
     rate: CrushRate | None = None
 
 

@@ -28,7 +28,7 @@ class StoredCrushing:
 
     Attributes
     ----------
-    peak_force, mean_crushing_force, effective_stroke, rate, half_fold_length, peak_strain, first_fold
+    peak_force, mean_crushing_force, effective_stroke, rate, half_fold_length, peak_strain
         See `AxialLaw`; without a rate, and the strain at the peak is not known.
 
     References
@@ -46,7 +46,6 @@ class StoredCrushing:
     effective_stroke: float
     half_fold_length: float | None = None
     peak_strain: float = 0.0
-    first_fold: float = 1.0
     rate: CrushRate | None = None
 
     @classmethod
