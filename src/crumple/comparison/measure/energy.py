@@ -23,6 +23,9 @@ from crumple.structure.hinges.corner_laws import corner_of
 from crumple.structure.hinges.corners import Corner
 from crumple.structure.hinges.joint_reach import joint_reach
 
+SHARED = 2.0
+"""Power of the axial force over its capacity in the share of such work that is spread: the rest of the
+interaction is a moment, which only the fold has."""
 PIECES = 16
 """Pieces in which energy is spread over a length."""
 DISTORTED = 0.4
@@ -67,14 +70,18 @@ def _before_folding(result: Result, hinge: PlacedHinge) -> float:
     spread = next((part.spread for part in parts if part.spread is not None), None)
     if spread is None:
         return 0.0
-    slip, force = (result[f"hinge.{hinge.name}.slip.x.{one}"] for one in ("plastic_travel", "force"))
+    slip, force, capacity = (
+        result[f"hinge.{hinge.name}.slip.x.{one}"] for one in ("plastic_travel", "force", "capacity")
+    )
     longest, shortest = (
         one[0][-1] if one[0].size else 0.0 for one in (spread.lengthening, spread.shortening)
     )
     shared = np.clip(slip, -shortest, longest)
     # where the slip comes back it yields anew, in the fold
     new = np.abs(slip) >= np.maximum.accumulate(np.abs(slip))
-    work = np.diff(shared) * (force[1:] + force[:-1]) / 2.0
+    # beside a moment only the walls that it loads too yield
+    alone = (force / capacity) ** SHARED
+    work = np.diff(shared) * (force[1:] + force[:-1]) / 2.0 * (alone[1:] + alone[:-1]) / 2.0
     return float(np.maximum(work, 0.0)[new[1:]].sum())
 
 
