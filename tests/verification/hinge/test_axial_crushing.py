@@ -126,6 +126,12 @@ HARDENED = [
     ("circular", 30, 1.5, (250e6, 0.005, 0.2), 1.646),
     ("circular", 50, 3.5, (400e6, 0.012, 0.07), 1.144),
     ("circular", 70, 1.8, (320e6, 0.006, 0.13), 1.175),
+    ("superfolding", (60, 30), 2, (280e6, 0.008, 0.16), 1.234),
+    ("superfolding", (50, 30), 1.5, (350e6, 0.01, 0.1), 1.099),
+    ("superfolding", (40, 20), 2, (280e6, 0.008, 0.16), 1.351),
+    ("superfolding", (80, 40), 3, (350e6, 0.01, 0.1), 1.139),
+    ("top_hat", (60, 50), 1.5, (280e6, 0.008, 0.16), 1.094),
+    ("top_hat", (70, 60), 2, (350e6, 0.01, 0.1), 1.054),
 ]
 """Yield stress, prestrain and exponent of Swift's curve, and largest force of shells over the squash load."""
 
@@ -151,10 +157,14 @@ def test_the_peak_of_metal_that_hardens_is_that_of_shells(kind, size, wall, meta
     stress, prestrain, exponent = metal
     hardening = Swift(stress, prestrain, exponent)
     steel = Material("steel", 210e9, 0.3, 7850.0, stress, hardening=hardening)
-    side = size / 1e3
-    tube = RectangularTube(side, side, wall / 1e3) if kind == "square" else CircularTube(side, wall / 1e3)
+    sides = [one / 1e3 for one in (size if isinstance(size, tuple) else (size, size))]
+    tube = {
+        "circular": CircularTube(sides[0], wall / 1e3),
+        "top_hat": ClosedHat(*sides, wall / 1e3, 0.02),
+    }.get(kind, RectangularTube(*sides, wall / 1e3))
     law = build_axial_law(kind, tube, steel)
-    name = f"{kind} {size}x{wall} mm, {stress / 1e6:g} MPa, n = {exponent:g}, peak over squash load"
+    title = f"{kind} {'x'.join(f'{1e3 * one:g}' for one in sides)}x{wall} mm, {stress / 1e6:g} MPa"
+    name = f"{title}, n = {exponent:g}, peak over squash load"
     record_figure(name, law.peak_force / (stress * tube.area), shells, 0.05, "", relative=True)
 
 

@@ -25,10 +25,11 @@ from crumple.hinge.axial.axial_law import (
     crush_rate,
     flat_wall_moment,
 )
+from crumple.hinge.axial.hardened_peak import FLAT, rise
 from crumple.hinge.law import Source, Trust
 from crumple.hinge.rate import rate_warnings
 from crumple.material import Material
-from crumple.section import Section
+from crumple.section import ClosedHat, Section
 
 SOURCE = Source(
     "after White, Jones & Abramowicz, Int. J. Mech. Sci. 41 (1999) 179",
@@ -38,7 +39,6 @@ SOURCE = Source(
 TOP_HAT, DOUBLE_HAT = 32.89, 52.20
 EFFECTIVE_STROKE = 0.73
 RATE_SHAPE = 0.33
-CLOSED = frozenset({"closed_hat"})
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,8 @@ class HatCrushing:
         section
             Closed hat; its area and wall are used, L = area/thickness.
         material
-            Flow stress for the mean force, yield stress for the peak, flow rate for the rate factor.
+            Flow stress for the mean force, yield stress and hardening for the peak, flow rate for the rate
+            factor.
         double
             Whether the section is two hats welded together instead of a hat on a plate.
 
@@ -85,16 +86,25 @@ class HatCrushing:
         InputError
             If the section is not a closed hat.
         """
-        if section.kind not in CLOSED:
+        if not isinstance(section, ClosedHat):
             what, todo = "this law is for closed hats", "use square, superfolding or circular"
-            raise InputError(Problem(what, section.title, ", ".join(sorted(CLOSED)), todo, "section"))
-        return cls.from_perimeter(section.area / section.thickness, section.thickness, material, double)
+            raise InputError(Problem(what, section.title, "closed_hat", todo, "section"))
+        # the widest wall is about as wide as the whole hat
+        strain = FLAT.strain(material, section.thickness / section.width)
+        return cls.from_perimeter(
+            section.area / section.thickness, section.thickness, material, double, strain
+        )
 
     @classmethod
     def from_perimeter(
-        cls, perimeter: float, thickness: float, material: Material, double: bool = False
+        cls,
+        perimeter: float,
+        thickness: float,
+        material: Material,
+        double: bool = False,
+        strain: float = 0.0,
     ) -> HatCrushing:
-        """Law from the length of mid-line L [m] and the wall [m]."""
+        """Law from the length of mid-line L [m], the wall [m], and the plastic strain at the peak."""
         moment = flat_wall_moment(material.flow_stress, thickness)
         mean = (DOUBLE_HAT if double else TOP_HAT) * (perimeter / thickness) ** (1.0 / 3.0) * moment
         warnings = (
@@ -105,10 +115,11 @@ class HatCrushing:
         shape = RATE_SHAPE / (perimeter / (8.0 if double else 4.0))
         return cls(
             double,
-            material.yield_stress * perimeter * thickness,
+            material.yield_stress * perimeter * thickness * rise(material, strain),
             mean,
             CrushValidity("no test was compared here", warnings),
             crush_rate(shape, material),
+            peak_strain=strain,
         )
 
     @property
