@@ -177,6 +177,7 @@ def _render(
         omitted_hinges=max(len(result.hinges) - MAX_MOMENT_FIGURES, 0),
         hinge_table=wording.hinge_table(result),
         crush_table=along.crush_table(result),
+        crushing_law_table=along.crushing_law_table(result),
         stretch_table=along.stretch_table(result),
         crumpled_table=along.crumpled_table(result),
         dent_table=along.dent_table(result),

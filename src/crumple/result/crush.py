@@ -98,6 +98,8 @@ class CrushSummary:
         Largest shortening over the length of the member [-].
     bottomed_out
         Whether the folds were closed, so that the force is that of a stop.
+    law
+        What its force is, with source and band, in words; empty in results of earlier versions.
     """
 
     length: float
@@ -108,6 +110,7 @@ class CrushSummary:
     stroke: float | None
     efficiency: float
     bottomed_out: bool
+    law: str = ""
 
 
 def crush_summary(

@@ -73,6 +73,8 @@ def write_frozen(sources: list[LoadedInput], file: Path) -> None:
 
 def law_lines(result: Result, source: LoadedInput) -> Iterator[str]:
     """Store that was used, and the origin of every law; hinges with one law in one line."""
+    from crumple.report.wording.along import crushing_laws
+
     store = source.analysis.structure.laws
     if store is not None:
         yield f"Store of laws: {store.name}, {len(store.texts)} used{_of_store(store.texts, source.path)}"
@@ -80,6 +82,9 @@ def law_lines(result: Result, source: LoadedInput) -> Iterator[str]:
         shown = ", ".join(names[:MOST_NAMES])
         more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
         yield f"Law of {shown}{more}: {sentence}"
+    for sentence, names in crushing_laws(result):
+        more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
+        yield f"Crushing of {', '.join(names[:MOST_NAMES])}{more}: {sentence}"
 
 
 def _of_store(texts: Sequence[str], file: Path) -> str:

@@ -71,6 +71,8 @@ class AxialCollapse:
     rises
         Of tension, then of compression: slip [m] from 0 to u_h and force over that at its end [-]; empty:
         none.
+    crushing
+        What the force in compression is, in words.
 
     References
     ----------
@@ -95,6 +97,7 @@ class AxialCollapse:
     elastic_stiffness: float | None = None
     jamming_angle: float | None = None
     rises: tuple[_Curve, _Curve] = (NO_RISE, NO_RISE)
+    crushing: str = "yield of the walls"
 
     @classmethod
     def given(
@@ -171,7 +174,7 @@ class AxialCollapse:
         if law.rate is not None:
             rate = HingeRate(law.rate.metal.D / law.rate.shape, law.rate.metal.q)
         basis = Validity(math.inf, law.validity.basis, law.validity.warnings, law.validity.uncertainty)
-        return replace(made, rate=rate, source=law.source, validity=basis)
+        return replace(made, rate=rate, source=law.source, validity=basis, crushing=law.title)
 
     def hardening(
         self, material: Material, strain: float, length: float, *, neck: bool = True
@@ -200,6 +203,16 @@ class AxialCollapse:
     def folding(self) -> AxialCollapse:
         """What follows the rise, as if nothing had happened before."""
         return replace(self, rises=(NO_RISE, NO_RISE))
+
+    @property
+    def origin(self) -> str:
+        """Law, source and evidence in words."""
+        band = self.validity.uncertainty
+        known = "band not known" if band is None else f"band ±{100.0 * band:.2g} %"
+        if self.source is CHOSEN:
+            return self.crushing if self.peak == self.mean else "forces given in the input"
+        basis = f"{self.source.citation} ({self.source.trust.value}); {self.validity.basis}"
+        return f"{self.crushing}, {known}: {basis}"
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
         """Slip at which the slope of the force changes."""

@@ -100,6 +100,8 @@ class HingeComponent:
     spread
         Of the axial freedom, where the components share one measure of softening: the record then begins at
         the end of the spread.
+    origin
+        Of the axial freedom: its law in words, with its source.
     """
 
     freedom: Freedom
@@ -107,6 +109,7 @@ class HingeComponent:
     shift: DrivenShare | None = None
     worn: DrivenShare | None = None
     spread: Spread | None = None
+    origin: str = ""
 
 
 @dataclass(frozen=True, eq=False)

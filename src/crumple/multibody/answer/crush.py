@@ -21,7 +21,8 @@ def crush_of(structure: Structure, history: HingeHistory) -> CrushSummary | None
     spatial = history.hinge.spatial
     if spatial is None or Freedom.AXIAL not in spatial.freedoms:
         return None
-    stop = spatial.components[spatial.freedoms.index(Freedom.AXIAL)].record.stop_negative
+    slip = spatial.components[spatial.freedoms.index(Freedom.AXIAL)]
+    stop = slip.record.stop_negative
     found = crush_summary(
         history.values("slip.x.travel"),
         history.values("slip.x.force"),
@@ -31,7 +32,7 @@ def crush_of(structure: Structure, history: HingeHistory) -> CrushSummary | None
         history.energy if history.rotation_max <= BENT else None,
     )
     unasked = lengthens(structure, history.hinge.member)
-    return None if unasked and found.efficiency <= MOVED else found
+    return None if unasked and found.efficiency <= MOVED else replace(found, law=slip.origin)
 
 
 def _stretch_of(structure: Structure, history: HingeHistory) -> StretchSummary | None:

@@ -32,6 +32,24 @@ def crush_table(result: Result) -> Table:
     return Table(caption, heads, rows)
 
 
+def crushing_laws(result: Result) -> list[tuple[str, list[str]]]:
+    """Laws of crushing in words, with the hinges that have each."""
+    found: dict[str, list[str]] = {}
+    for name, hinge in result.hinges.items():
+        if hinge.crush is not None and hinge.crush.law:
+            found.setdefault(hinge.crush.law, []).append(name)
+    return list(found.items())
+
+
+def crushing_law_table(result: Result) -> Table:
+    """Force of every crush zone: its law, with source and evidence."""
+    rows = [(", ".join(names), law) for law, names in crushing_laws(result)]
+    caption = (
+        "What the crush zones carry along their members, with source, evidence and band of the mean force."
+    )
+    return Table(caption, ("Crush zone", "Law"), rows, frozenset({1}))
+
+
 def stretch_table(result: Result) -> Table:
     """Lengthening, tension and energy of every hinge that lengthened along its member."""
     hinges = {name: hinge.stretch for name, hinge in result.hinges.items() if hinge.stretch is not None}

@@ -104,9 +104,8 @@ def spatial_hinge_record(
     if keys.axial is not None:
         law_of_slip, slip = _axial(keys.axial, crush, first, metal, shares)
         alone = coupling.value in APART or slip.form is Form.REGULARISED
-        components.append(
-            HingeComponent(Freedom.AXIAL, slip) if alone else _after_rise(law_of_slip, slip, first)
-        )
+        whole = HingeComponent(Freedom.AXIAL, slip, origin=law_of_slip.origin)
+        components.append(whole if alone else _after_rise(law_of_slip, whole, first))
     if coupling is Coupling.SECTION and isinstance(section, CircularTube) and keys.axial is None:
         # its walls share every moment alike, so the ellipsoid is their interaction and needs no fit
         coupling = Coupling.ELLIPSOID
@@ -216,13 +215,13 @@ def _axial(
     return law, _like(first, law, elastic, one_sided=True)
 
 
-def _after_rise(law: AxialCollapse, record: HingeRecord, first: HingeRecord) -> HingeComponent:
+def _after_rise(law: AxialCollapse, whole: HingeComponent, first: HingeRecord) -> HingeComponent:
     """Slip that shares its measure of softening with other components: its rise counts apart."""
     if not any(slip for slip, _ in law.rises):
-        return HingeComponent(Freedom.AXIAL, record)
+        return whole
     lengthening, shortening = ((np.array(slip), np.array(share)) for slip, share in law.rises)
-    later = _like(first, law.folding, record.elastic_stiffness, one_sided=True)
-    return HingeComponent(Freedom.AXIAL, later, spread=Spread(lengthening, shortening))
+    later = _like(first, law.folding, whole.record.elastic_stiffness, one_sided=True)
+    return replace(whole, record=later, spread=Spread(lengthening, shortening))
 
 
 @remembered(KEPT)

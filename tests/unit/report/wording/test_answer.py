@@ -5,6 +5,8 @@ from dataclasses import replace
 import pytest
 from tests.support.result.synthetic_tube import tube_result
 
+from crumple.analysis import loads, solve
+from crumple.report.wording.along import crushing_law_table, crushing_laws
 from crumple.report.wording.answer import grouped, three_sentences
 from crumple.report.wording.key_figures import between_hinges, key_figures
 from crumple.report.wording.wording import verdict
@@ -114,3 +116,36 @@ def test_cautions_that_differ_stay():
     warnings = ["Hinge a turned 4°.", "Hinge a turned 5°.", "Step 1 failed.", "Step 2 failed."]
     assert grouped(warnings, ["a"]) == warnings
     assert grouped(warnings, []) == warnings
+
+
+RAIL = """crumple: 1
+materials:
+  steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 300 MPa}
+sections: {rail: {type: SECTION}}
+nodes: {front: [0 m, 0 m, 0 m], rear: [0.4 m, 0 m, 0 m]}
+members: {rail: {nodes: [front, rear], section: rail, material: steel}}
+hinges: HINGES
+supports: {foot: {node: front, fix: all}, guide: {node: rear, fix: [y, z, rx, ry, rz]}}
+masses: {car: {node: rear, mass: 100 kg}}
+initial_velocity: [{nodes: [rear], translation: [-5 m/s, 0 m/s, 0 m/s]}]
+analysis: {duration: 5 ms, multibody: {mechanism_check: off}}
+"""
+SQUARE, ROUND = "square_tube, side: 40 mm, thickness: 2 mm", "circular_tube, diameter: 40 mm, thickness: 2 mm"
+
+
+@pytest.mark.parametrize(
+    ("section", "hinges", "words"),
+    [
+        (SQUARE, "auto", ("superfolding", "band not known", "Wierzbicki", "compared with shells")),
+        (ROUND, "auto", ("concertina", "Alexander", "compared with shells")),
+        (SQUARE, "{axial: {peak: 60 kN, mean: 30 kN, stroke: 0.2 m}}", ("forces given in the input",)),
+        (SQUARE, "{axial: true}", ("yield of the walls",)),
+    ],
+)
+def test_a_crush_zone_says_what_its_force_is(section, hinges, words):
+    result = solve(loads(RAIL.replace("SECTION", section).replace("HINGES", hinges)))
+    ((said, names),) = crushing_laws(result)
+    assert names == [name for name, hinge in result.hinges.items() if hinge.crush is not None]
+    for word in words:
+        assert word in said
+    assert crushing_law_table(result).rows == [(", ".join(names), said)]
