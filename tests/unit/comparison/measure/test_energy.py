@@ -1,6 +1,7 @@
 """Where corners out of their plane do their work: along the members that they distort."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -149,3 +150,19 @@ def test_what_a_column_takes_before_it_folds_is_spread_evenly_over_it(way, even)
     else:
         folded = sum(energy for _, energy in works if energy > 0.03 * total)
         assert total - folded == pytest.approx(uniform, rel=0.03)
+
+
+def test_beside_a_moment_the_square_of_the_share_of_the_axial_force_is_spread():
+    analysis = loads(COLUMN.replace("WAY", "-4 mm"), file="column.yaml", directory=".")
+    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
+    result = solve(with_frames(analysis))
+    before = [energy for _, _, energy in hinge_work(result, structure) if energy > 0.0]
+    twice = {
+        name: replace(one, values=2.0 * one.values) if name.endswith("slip.x.capacity") else one
+        for name, one in result.channels.items()
+    }
+    after = [energy for _, _, energy in hinge_work(replace(result, channels=twice), structure)]
+    # half of the capacity: three quarters are found at the hinges
+    assert sum(energy for energy in after if energy > 0.03 * sum(after)) == pytest.approx(
+        0.75 * sum(before), rel=0.02
+    )
