@@ -173,6 +173,11 @@ def test_the_force_rises_along_the_hardening_curve_to_the_peak_and_in_tension_to
     steel = Material("steel", 210e9, 0.3, 7850.0, 280e6, hardening=curve)
     law, length = build_axial_law("square", tube, steel), 0.3
     squash = 280e6 * tube.area
+    exponent = 0.16 * law.peak_strain / (law.peak_strain + 0.008)
+    assert law.peak_strain == pytest.approx(4.62 * (2.0 / 38.0) ** 1.53 * exponent**0.327, rel=1e-6)
+    curved = build_axial_law("circular", CircularTube(0.04, 0.002), steel).peak_strain
+    exponent = 0.16 * curved / (curved + 0.008)
+    assert curved == pytest.approx(4.06 * (2.0 / 38.0) ** 1.2 * exponent**0.569, rel=1e-6)
     column = AxialCollapse.of(law, 0.4, tension=squash, closed_stiffness=1e6).hardening(
         steel, law.peak_strain, length
     )

@@ -124,14 +124,15 @@ def test_in_space_compression_takes_from_the_moment_in_the_plane_in_proportion()
 
 def test_a_corner_of_metal_that_hardens_folds_at_once_in_compression_and_hardens_in_tension():
     hard = "yield_stress: 350 MPa, hardening: {type: swift, prestrain: 0.01, exponent: 0.1}"
-    hinge = corner(SPACE, text=RAIL.replace("yield_stress: 350 MPa", hard))
+    folds = "{axes: [x, y, z], axial: {law: superfolding}}"
+    hinge = corner(folds, text=RAIL.replace("yield_stress: 350 MPa", hard))
     slip = {part.freedom: part for part in hinge.spatial.components}[Freedom.AXIAL]
     assert slip.spread.shortening[0].size == 0
     assert slip.spread.lengthening[0].size > 2
     at_first = slip.spread.lengthening[1][0] * slip.record.positive.moment[0]
     assert at_first == pytest.approx(350e6 * (0.05**2 - 0.046**2), rel=1e-9)
     # the kernel takes it
-    text = RAIL.replace("yield_stress: 350 MPa", hard).replace("GAUGE", "2 mm").replace("HINGES", SPACE)
+    text = RAIL.replace("yield_stress: 350 MPa", hard).replace("GAUGE", "2 mm").replace("HINGES", folds)
     read = loads(text.replace("OBSTACLES", WALL).replace("MEMBERS", "elastic"))
     assert solve(read).status.ok
 
