@@ -69,12 +69,11 @@ def node_motion(
     structure: Structure, poses: Poses, name: str, walls: WallMotion | None, time: Floats | None = None
 ) -> Iterator[Channel]:
     """The same for one node; without acceleration if the rows have no `time`, (n,)."""
-    body = poses.node_body[name]
     start = np.asarray(structure.nodes[name], float)
-    place, velocity = poses.place(body, start)
+    place, velocity = node_place(structure, poses, name)
     if walls is not None:
         place, velocity = place + walls[0], velocity + walls[1]
-    rotation, rate = poses.rotation(body)
+    rotation, rate = _mean([poses.rotation(body) for body in poses.node_sides(name)])
     fields = {"displacement": place - start, "velocity": velocity}
     if time is not None:
         acceleration = np.gradient(velocity, time, axis=0) if time.size > 1 else 0.0 * velocity
@@ -82,6 +81,18 @@ def node_motion(
     fields |= {"rotation": rotation, "rotation_rate": rate}
     for field, values in fields.items():
         yield from channels_along(f"node.{name}.{field}", values)
+
+
+def node_place(structure: Structure, poses: Poses, node: str) -> tuple[Floats, Floats]:
+    """Position [m] and velocity [m/s] of a node, the mean of its sides, (n, 3) each."""
+    start = np.asarray(structure.nodes[node], float)
+    return _mean([poses.place(body, start) for body in poses.node_sides(node)])
+
+
+def _mean(motions: Sequence[tuple[Floats, Floats]]) -> tuple[Floats, Floats]:
+    """Mean of motions, each two vectors, (n, 3)."""
+    first, second = zip(*motions, strict=True)
+    return np.mean(first, axis=0), np.mean(second, axis=0)
 
 
 def section_channels(structure: Structure, poses: Poses, outputs: Outputs) -> Iterator[Channel]:
@@ -106,8 +117,8 @@ def distance_channels(
         nodes = asked.start, asked.end
         ends = [np.asarray(structure.nodes[node], float) for node in nodes]
         places = [
-            poses.place(poses.node_body[node], point)[0] + (walls[node][0] if node in walls else 0.0)
-            for node, point in zip(nodes, ends, strict=True)
+            node_place(structure, poses, node)[0] + (walls[node][0] if node in walls else 0.0)
+            for node in nodes
         ]
         before = float(np.linalg.norm(ends[1] - ends[0]))
         yield Channel(name, "m", np.linalg.norm(places[1] - places[0], axis=1) - before)

@@ -42,6 +42,9 @@ class Poses(Protocol):
     def node_body(self) -> Mapping[str, int]:
         """Body of each node."""
 
+    def node_sides(self, node: str) -> tuple[int, ...]:
+        """Bodies whose mean a node is: both sides of the hinge of a mitred corner, else its own."""
+
     @property
     def normal(self) -> Floats | None:
         """Unit vector normal to the plane of motion, (3,); None in space."""
@@ -97,6 +100,10 @@ class TreePoses:
     def node_body(self) -> Mapping[str, int]:
         """See `Poses`."""
         return self.mechanism.node_body
+
+    def node_sides(self, node: str) -> tuple[int, ...]:
+        """See `Poses`."""
+        return self.mechanism.corner_sides.get(node, (self.node_body[node],))
 
     @property
     def normal(self) -> Floats | None:
@@ -194,6 +201,10 @@ class SpatialPoses(Generic[SpatialKind]):
     def node_body(self) -> Mapping[str, int]:
         """See `Poses`."""
         return self.linkage.node_body
+
+    def node_sides(self, node: str) -> tuple[int, ...]:
+        """See `Poses`."""
+        return self.linkage.corner_sides.get(node, (self.node_body[node],))
 
     @property
     def normal(self) -> Floats | None:

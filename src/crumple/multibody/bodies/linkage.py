@@ -7,7 +7,8 @@ that is held in all six freedoms belongs to the ground.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -20,6 +21,7 @@ from crumple.multibody.bodies.rigid import RigidMass
 from crumple.numeric.arrays import Floats
 from crumple.structure import FREEDOMS, Joint, PlacedHinge, Structure, placed_hinges
 from crumple.structure.geometry import cross
+from crumple.structure.hinges.corner_laws import corner_laws, corner_name
 from crumple.structure.hinges.hinges import OWN_HINGES
 
 GROUND = -1
@@ -93,6 +95,10 @@ class Linkage:
         Mass of every rigid part of the ground that has any.
     ground_parts
         Rigid parts of the ground.
+    corner_sides
+        Bodies on both sides of the hinge of every mitred corner, by node.  The hinge turns and slips between
+        the ends of both members.  As in shells, where the node is the mean of the mitre that they share, it
+        is neither's.
     """
 
     bodies: tuple[RigidMass, ...]
@@ -102,6 +108,7 @@ class Linkage:
     node_part: dict[str, int]
     part_mass: dict[int, RigidMass]
     ground_parts: frozenset[int]
+    corner_sides: Mapping[str, tuple[int, int]] = field(default_factory=dict)
 
     @cached_property
     def trees(self) -> dict[bool, Any]:
@@ -165,7 +172,14 @@ def _link(structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Linkage:
         node_part=node_part,
         part_mass={part: masses[part] for part in clamped if part in masses},
         ground_parts=frozenset(clamped),
+        corner_sides=_corner_sides(structure, connections),
     )
+
+
+def _corner_sides(structure: Structure, connections: list[Connection]) -> dict[str, tuple[int, int]]:
+    sides = {c.hinge.name: (c.first, c.second) for c in connections if c.hinge is not None}
+    names = {node: corner_name(node) for node in corner_laws(structure)}
+    return {node: sides[name] for node, name in names.items() if name in sides}
 
 
 def with_laws(linkage: Linkage, hinges: tuple[PlacedHinge, ...]) -> Linkage:

@@ -10,8 +10,8 @@ parts together.
 from __future__ import annotations
 
 from collections import Counter, defaultdict, deque
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -83,6 +83,8 @@ class Mechanism:
         Further parts of cut bodies: (part, body that it belongs to, -1 for the ground).
     pin_joints
         Pinned nodes whose pin is a joint of the tree; the other pins are constraints.
+    corner_sides
+        Bodies on both sides of the hinge of every mitred corner, by node.
     """
 
     plane: Plane
@@ -92,6 +94,7 @@ class Mechanism:
     node_body: dict[str, int]
     welds: tuple[tuple[int, int], ...] = ()
     pin_joints: frozenset[str] = frozenset()
+    corner_sides: Mapping[str, tuple[int, int]] = field(default_factory=dict)
 
     def parts_of(self, body: int) -> int:
         """Into how many equal parts a body is cut; its mass here is that of one."""
@@ -216,8 +219,16 @@ def _walk(structure: Structure, linkage: Linkage, plane: Plane) -> Mechanism:
         for name, of in linkage.pieces.items()
     }
     node_body = {node: numbered(body) for node, body in linkage.node_body.items()}
+    sides = {node: (numbered(a), numbered(b)) for node, (a, b) in linkage.corner_sides.items()}
     return Mechanism(
-        plane, bodies, tuple(links), pieces, node_body, welds=tuple(welds), pin_joints=frozenset(jointed)
+        plane,
+        bodies,
+        tuple(links),
+        pieces,
+        node_body,
+        welds=tuple(welds),
+        pin_joints=frozenset(jointed),
+        corner_sides=sides,
     )
 
 
