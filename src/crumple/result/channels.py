@@ -86,7 +86,8 @@ KINDS = (
     Kind(
         "node.NAME.displacement.xyz",
         "m",
-        "displacement from the start position, global axes; in a dent with the mean of the walls",
+        "displacement from the start position, global axes; at a mitred corner the mean of both ends; "
+        "in a dent with the mean of the walls",
     ),
     Kind("node.NAME.velocity.xyz", "m/s", "velocity, global axes"),
     Kind(
@@ -94,7 +95,11 @@ KINDS = (
         "m/s^2",
         "mean acceleration between outputs; an impulsive motion has no instantaneous acceleration",
     ),
-    Kind("node.NAME.rotation.xyz", "rad", "rotation vector of the body that carries the node"),
+    Kind(
+        "node.NAME.rotation.xyz",
+        "rad",
+        "rotation vector of the body that carries the node; at a mitred corner the mean of both ends",
+    ),
     Kind("node.NAME.rotation_rate.xyz", "rad/s", "angular velocity of this body"),
     Kind(
         "cut.NAME.force.xyz",
