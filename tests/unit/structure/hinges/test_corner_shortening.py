@@ -139,17 +139,33 @@ def test_a_corner_of_metal_that_hardens_folds_at_once_in_compression_and_hardens
 
 def test_the_force_that_a_corner_carries_in_space_falls_as_its_fold_grows():
     parts = {part.freedom: part.record for part in corner(SPACE).spatial.components}
-    moment, slip = parts[Freedom.Y].positive, parts[Freedom.AXIAL].negative
+    moments, slip = (parts[Freedom.Y].positive, parts[Freedom.Y].negative), parts[Freedom.AXIAL].negative
     squash = 350e6 * (0.05**2 - 0.046**2)
-    first = slip.moment[0]
+    first, at_first = slip.moment[0], np.mean([one.moment[0] for one in moments])
+    assert moments[0].moment[0] != pytest.approx(moments[1].moment[0], rel=0.01)
     for turn in (0.0, 0.01, 0.03, 0.1, 0.3):
         arm = 0.024 * (1.0 - FOLD * math.exp(-turn / 0.023))
         still = 0.024 * (1.0 - FOLD) * 0.157 * squash / 2.0
-        expected = min(squash, (np.interp(turn, moment.rotation, moment.moment) + still) / arm)
-        found = np.interp(turn * moment.moment[0] / first, slip.rotation, slip.moment)
+        # without a moment it may open or close
+        moment = np.mean([np.interp(turn, one.rotation, one.moment) for one in moments])
+        expected = min(squash, (moment + still) / arm)
+        found = np.interp(turn * at_first / first, slip.rotation, slip.moment)
         assert found == pytest.approx(expected, rel=0.01)
     # in tension the walls yield
     assert (parts[Freedom.AXIAL].positive.moment == squash).all()
+
+
+@pytest.mark.parametrize("hinges", ["auto", SPACE])
+def test_a_mirror_image_carries_the_same_in_compression(hinges):
+    mirrored = corner(hinges, text=RAIL.replace("0.15 m", "-0.15 m"))
+    slips = [
+        {part.freedom: part.record for part in hinge.spatial.components}[Freedom.AXIAL].negative
+        for hinge in (corner(hinges), mirrored)
+    ]
+    assert slips[0].moment[0] == pytest.approx(slips[1].moment[0], rel=1e-9)
+    places = np.linspace(0.0, 0.02, 41)
+    forces = [np.interp(places, slip.rotation, slip.moment) for slip in slips]
+    assert forces[0] == pytest.approx(forces[1], rel=1e-9)
 
 
 @pytest.mark.parametrize(

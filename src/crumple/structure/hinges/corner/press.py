@@ -9,8 +9,9 @@ with M = 0 and N >= n N_y,
 
     N(theta) = (M(theta)/d + (1 - b) n N_y/2)/(1 - b exp(-theta/theta_1)),
 
-at most the force that folds the walls; and with the shares n of it, m of the moment in the plane, m_a and t
-of those across it, the surface is
+at most the force that folds the walls.  M is the mean of the moments that open and that close the corner:
+with no moment it may turn either way, and a corner and its mirror image carry the same.  With the shares n of
+N, m of the moment in the plane, m_a and t of those across it, the surface is
 
     (|n| + |m|)^2 + m_a^2 + t^2 = 1.
 
@@ -90,12 +91,15 @@ def with_corner_press(
 
 def _pressed(slip: HingeRecord, bending: HingeRecord, arm: float, squash: float, fold: float) -> HingeRecord:
     """The slip's record with the smaller force in compression."""
-    law = bending.positive
-    first = (float(law.moment[0]) / arm + (1.0 - fold) * FULL * squash / 2.0) / (1.0 - fold)
+    laws = bending.positive, bending.negative
+    at_first = sum(float(law.moment[0]) for law in laws) / 2.0
+    first = (at_first / arm + (1.0 - fold) * FULL * squash / 2.0) / (1.0 - fold)
     first = min(first, float(slip.negative.moment[0]))
-    ratio = first / float(law.moment[0])
-    turns = np.union1d(PLACES, np.union1d(law.rotation, slip.negative.rotation * ratio))
-    moment = np.interp(turns, law.rotation, law.moment)
+    ratio = first / at_first
+    turns = np.unique(
+        np.concatenate([PLACES, *(law.rotation for law in laws), slip.negative.rotation * ratio])
+    )
+    moment = sum((np.interp(turns, law.rotation, law.moment) for law in laws), np.zeros(turns.size)) / 2.0
     left = 1.0 - fold * np.exp(-turns / FOLDED)
     force = (moment / arm + (1.0 - fold) * FULL * squash / 2.0) / left
     folding = np.interp(turns / ratio, slip.negative.rotation, slip.negative.moment)
