@@ -10,7 +10,7 @@ from crumple.hinge.bending.dented import DentedLaw
 from crumple.hinge.bending.pressed import PressedLaw
 from crumple.hinge.dent import left_in_bending
 from crumple.hinge.registry import build_law
-from crumple.section import RectangularTube
+from crumple.section import RectangularTube, half_fold_length
 from crumple.structure import dented_tubes, hinge_places, law_uses, plastic_hinges
 from crumple.structure.hinges.automatic import strikes_on
 from crumple.structure.hinges.places import law_of
@@ -361,3 +361,12 @@ def test_a_tube_spans_beyond_a_kink_that_nothing_holds(right, drop, fix, more, g
     assert (left > 1.2 * deep) == goes_on
     if goes_on:
         assert left == pytest.approx(left_in_bending(tube, steel, 60e-3, moment, further, (1.0, 1.0)))
+
+
+@pytest.mark.parametrize(("folds", "found"), [(0.8, False), (1.3, True), (3.0, True)])
+def test_a_tube_is_dented_down_to_half_a_fold_from_the_fold_at_its_end(folds, found):
+    end = next(place for place in hinge_places(structure_of("square")) if place.name == "beam-right")
+    half = half_fold_length(RectangularTube(0.06, 0.06, 0.002), "y")
+    at = 1e3 * (end.station - folds * half)
+    near = HIGH.replace("point: [400 mm", f"point: [{at:.6f} mm")
+    assert ("beam" in dented(structure_of("square", near))) is found

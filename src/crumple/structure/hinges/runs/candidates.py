@@ -164,7 +164,9 @@ def _candidates(
     ]
     for name, at in (*inner, *struck, *divided):
         before = bisect(taken, at)
-        apart = all(abs(at - other) > 2.0 * half for other in taken[max(before - 1, 0) : before + 1])
+        # an obstacle dents and folds what it strikes nearer to another fold, too
+        room = half if (name, at) in struck else 2.0 * half
+        apart = all(abs(at - other) > room for other in taken[max(before - 1, 0) : before + 1])
         if apart or (name, at) in inner:
             if apart:
                 taken.insert(before, at)
