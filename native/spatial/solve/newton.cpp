@@ -42,7 +42,6 @@ NewtonSolver::NewtonSolver(Problem& problem) : p_(problem), path_(problem) {
 void NewtonSolver::relinked() {
     overload_.assign(p_.connections.size(), 0.0);
     evaluated_.resize(p_.connections.size());
-    linear_.resize(p_.connections.size());
     path_.relinked();
     solved_ = false;
 }

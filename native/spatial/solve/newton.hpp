@@ -41,11 +41,6 @@ private:
     struct Evaluated {
         double w[most_components] = {NAN}, impulse[most_components], tangent[most_components * most_components];
     };
-    // tangent with which a law was last linearised in this pass, and whether it is stiff along its eigenvectors
-    struct Linear {
-        double matrix[most_components * most_components] = {NAN};
-        bool stiff[most_components];
-    };
     bool solve_laws();
     void forget_laws();
     const Evaluated& evaluate(size_t link, const double* w);
@@ -75,7 +70,6 @@ private:
     CentralPath path_;
     std::vector<Twist> next_;
     std::vector<Evaluated> evaluated_;          // per link
-    std::vector<Linear> linear_;                // per link
     std::vector<double> overload_, worst_near_;
     std::vector<Twist> answer_;                           // to friction: velocities, rates, impulses and unknowns per sliding contact
     std::vector<double> answer_rates_;

@@ -31,7 +31,6 @@ bool NewtonSolver::solve_linear() {
 // After a change of what is frozen.
 void NewtonSolver::forget_laws() {
     for (Evaluated& e : evaluated_) e.w[0] = NAN;
-    for (Linear& l : linear_) l.matrix[0] = NAN;
 }
 
 // Impulse and tangent of a law.  An iteration compares with them what the one before it has found, and begins with the same rates.
@@ -75,17 +74,8 @@ void NewtonSolver::linearise(size_t link) {
     Problem::Tangent& t = p_.tangent[link];
     double matrix[most_components * most_components];
     tangent_of(link, t.offset, matrix);
-    Linear& last = linear_[link];
-    if (std::equal(matrix, matrix + n * n, last.matrix)) return;
-    std::copy_n(matrix, n * n, last.matrix);
     eigenvectors(n, matrix, t.root, t.vectors);
-    for (int k = 0; k < n; k++) {
-        double direction[most_components];
-        for (int j = 0; j < n; j++) direction[j] = t.vectors[j * n + k];
-        const double stiffness = std::max(t.root[k], 0.0);
-        last.stiff[k] = stiffness * p_.system.mobility_along(link, direction) > 1;
-        t.root[k] = std::sqrt(stiffness);
-    }
+    for (int k = 0; k < n; k++) t.root[k] = std::sqrt(std::max(t.root[k], 0.0));
     p_.system.set_tangent(link, t.vectors, t.root);
 }
 
@@ -123,13 +113,15 @@ void NewtonSolver::read_unknowns(size_t link, const double* x, double* w, double
     const int n = p_.system.links()[link].laws;
     double along[most_components];
     for (int k = 0; k < n; k++) {
-        double force = 0;
+        double direction[most_components], force = 0;
         along[k] = 0;
         for (int j = 0; j < n; j++) {
-            along[k] += t.vectors[j * n + k] * w[j];
-            force += t.vectors[j * n + k] * x[j];
+            direction[j] = t.vectors[j * n + k];
+            along[k] += direction[j] * w[j];
+            force += direction[j] * x[j];
         }
-        if (linear_[link].stiff[k]) along[k] = force / (t.root[k] * t.root[k]);
+        const double stiffness = t.root[k] * t.root[k];
+        if (stiffness * p_.system.mobility_along(link, direction) > 1) along[k] = force / stiffness;
     }
     for (int j = 0; j < n; j++) {
         impulse[j] += x[j];
