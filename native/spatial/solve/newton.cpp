@@ -46,7 +46,8 @@ void NewtonSolver::relinked() {
     solved_ = false;
 }
 
-void NewtonSolver::begin(bool warm) {
+void NewtonSolver::begin(bool warm, bool rubs) {
+    rubs_ = rubs;
     last_solve_ = solves_ + most_solves * most_iterations();
     if (!warm) {
         path_.forget();
@@ -196,7 +197,7 @@ bool NewtonSolver::descend(int limit, bool full_steps, int found) {
 // Whether impulses agree with their laws, and friction with normal impulses, which it follows first; `slope` as in `balanced`.
 bool NewtonSolver::settled(double& slope) {
     if (!balanced(slope)) return false;
-    if (tolerance_ > finest_tolerance() || p_.contacts.rows() == 1 || p_.contacts.size() == 0) return true;
+    if (!rubs_ || tolerance_ > finest_tolerance() || p_.contacts.rows() == 1 || p_.contacts.size() == 0) return true;
     const double* impulse = p_.impulse.data() + p_.contact_rows();
     if (p_.contacts.limits_hold(impulse) || ++followed_ > most_followed) return true;
     follow_friction();

@@ -19,8 +19,8 @@ public:
 
     // the links of the problem have changed
     void relinked();
-    // Before a step; `warm`: it follows on a pass that was solved, and may start from it.
-    void begin(bool warm);
+    // Before a step; `warm`: it follows on a pass that was solved, and may start from it; `rubs`: friction follows the normal impulses.
+    void begin(bool warm, bool rubs);
     // begins the search for locked hinges with such rates
     void start_from(const std::vector<double>& rates);
     // Newton's method starts from the rates w, but hinges that were locked in the last pass start with the rates of that pass.
@@ -75,6 +75,7 @@ private:
     std::vector<double> answer_rates_;
     std::vector<std::vector<double>> applied_, answers_;
     bool solved_ = false;                       // whether w holds the solution of the last pass
+    bool rubs_ = true;                          // friction follows the normal impulses
     int followed_ = 0;                          // times that they did so in this solution
     bool full_steps_ = true;                    // full Newton steps have not cycled in this step
     double tolerance_ = 0;                      // relative tolerance of impulses at the present width of the ramps

@@ -48,7 +48,7 @@ Stepper::Stepper(const Model& model) : p_(model), newton_(p_), contact_(p_), end
 }
 
 bool Stepper::step(State& s, double h, const std::vector<Twist>* guess, bool discarded) {
-    begin(s, h, guess);
+    begin(s, h, guess, discarded);
     bool settled = true;
     for (int pass = guess ? 1 : 0; pass < passes || (!settled && pass < most_passes); pass++) {
         place_middle(s, h);
@@ -62,7 +62,7 @@ bool Stepper::step(State& s, double h, const std::vector<Twist>* guess, bool dis
 }
 
 // The guess, contacts within reach, true rates at the start, and redundant rows.
-void Stepper::begin(State& s, double h, const std::vector<Twist>* guess) {
+void Stepper::begin(State& s, double h, const std::vector<Twist>* guess, bool discarded) {
     p_.length = h;
     guess_ = guess ? *guess : s.velocity;
     p_.speed = 0;
@@ -81,7 +81,7 @@ void Stepper::begin(State& s, double h, const std::vector<Twist>* guess) {
     change_.clear();
     share_ = 1;
     // a guess is the result of a step that has just been solved
-    newton_.begin(guess != nullptr);
+    newton_.begin(guess != nullptr, !discarded);
 }
 
 // Finds the contacts within reach of a step.

@@ -32,7 +32,7 @@ public:
     void add_motion(State& state, const Twist* velocity, const Twist* impulse);
     // One step of length h; false if the equations did not converge (the state is then undefined).  `guess`: end velocities known to
     // first order; without them the step predicts them by a first pass.  `discarded`: no step follows, so contacts that it overlooked do
-    // not matter.
+    // not matter, and friction keeps the normal impulses of the step before.
     bool step(State& state, double h, const std::vector<Twist>* guess, bool discarded = false);
     // redundant held rows at the start: number, and per joint
     int redundant() const { return redundant_; }
@@ -74,7 +74,7 @@ public:
 
 private:
     // stages of a step
-    void begin(State& s, double h, const std::vector<Twist>* guess);
+    void begin(State& s, double h, const std::vector<Twist>* guess, bool discarded);
     void place_middle(const State& s, double h);
     void aim(const State& s, double h);
     void freeze(const State& s, double h);
