@@ -10,7 +10,7 @@ parts together.
 from __future__ import annotations
 
 from collections import Counter, defaultdict, deque
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -92,9 +92,9 @@ class Mechanism:
     links: tuple[Link, ...]
     pieces: dict[str, tuple[Piece, ...]]
     node_body: dict[str, int]
+    corner_sides: Mapping[str, tuple[int, int]] = field(default_factory=dict)
     welds: tuple[tuple[int, int], ...] = ()
     pin_joints: frozenset[str] = frozenset()
-    corner_sides: Mapping[str, tuple[int, int]] = field(default_factory=dict)
 
     def parts_of(self, body: int) -> int:
         """Into how many equal parts a body is cut; its mass here is that of one."""
@@ -211,25 +211,21 @@ def _walk(structure: Structure, linkage: Linkage, plane: Plane) -> Mechanism:
     )
     _check_inertia(bodies, links, plane)
 
-    def numbered(body: int) -> int:
-        return number.get(graph.body(body), GROUND)
+    places = _places(linkage, lambda body: number.get(graph.body(body), GROUND))
+    return Mechanism(plane, bodies, tuple(links), *places, tuple(welds), frozenset(jointed))
 
+
+def _places(
+    linkage: Linkage, numbered: Callable[[int], int]
+) -> tuple[dict[str, tuple[Piece, ...]], dict[str, int], dict[str, tuple[int, int]]]:
+    """Pieces of members, bodies of nodes, and bodies on both sides of corners, in the mechanism's numbers."""
     pieces = {
         name: tuple(Piece(name, piece.start, piece.end, numbered(piece.body)) for piece in of)
         for name, of in linkage.pieces.items()
     }
     node_body = {node: numbered(body) for node, body in linkage.node_body.items()}
     sides = {node: (numbered(a), numbered(b)) for node, (a, b) in linkage.corner_sides.items()}
-    return Mechanism(
-        plane,
-        bodies,
-        tuple(links),
-        pieces,
-        node_body,
-        welds=tuple(welds),
-        pin_joints=frozenset(jointed),
-        corner_sides=sides,
-    )
+    return pieces, node_body, sides
 
 
 def _part(whole: RigidMass, parts: int) -> RigidMass:

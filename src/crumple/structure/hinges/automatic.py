@@ -4,7 +4,7 @@ Bending moments are largest where something holds, joins or loads a member, and 
 all sit on nodes: so a candidate lies near each end of a member (`distance_of_fold`), unless nothing there
 can carry a moment.  Members in line that are one tube (straight_runs) count as one: at a node between them
 is a candidate only if it is a kink, or an obstacle strikes there.  Obstacles also strike members between
-their nodes: a candidate lies there (struck_places) if no other is within half a fold.  Braced members carry
+their nodes: a candidate lies there (struck_places) unless another is near.  Braced members carry
 forces along their axis and buckle with a hinge between those at their ends: a candidate lies in their middle.
 Members of metal that hardens which an impact presses along their axes (pressed) may kink: two candidates lie
 between those at their ends.

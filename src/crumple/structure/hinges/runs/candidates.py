@@ -134,15 +134,7 @@ def _candidates(
     struck = [(name, at) for name, at in _struck(structure, run, half, ends=False) if first < at < last]
     struck = [(f"{name}-struck" if name in (*run.nodes, *run.between) else name, at) for name, at in struck]
     number = 1 if spacing is None else max(1, math.ceil((last - first) / spacing * (1.0 - 1e-9)))
-    # a strut buckles with a hinge between those of its ends, which an obstacle places where it strikes
-    struts = braced(structure) | pushed_runs(structure)
-    number = max(2, number) if not struck and not struts.isdisjoint(run.stretches) else number
-    # what is pressed between free ends folds somewhere
-    pressed_free = not first_held and not last_held and stopped(structure)
-    number = max(2, number) if pressed_free and structure.members[names[0]].elastic else number
-    # and one of metal that hardens kinks where an impact presses it
-    kinks = not struck and kinks_pressed(structure, names[0])
-    number = max(KINKED, number) if kinks else number
+    number = max(number, _least_parts(structure, run, bool(struck), first_held or last_held))
     between = np.linspace(first, last, number + 1)[1:-1].tolist()
     if first_held:
         span = _span(end - start, [at - start for at in loaded], held[1])
@@ -164,15 +156,40 @@ def _candidates(
     ]
     for name, at in (*inner, *struck, *divided):
         before = bisect(taken, at)
-        # an obstacle dents and folds what it strikes nearer to another fold, too
-        room = half if (name, at) in struck else 2.0 * half
-        apart = all(abs(at - other) > room for other in taken[max(before - 1, 0) : before + 1])
+        around = taken[max(before - 1, 0) : before + 1]
+        # what an obstacle strikes is dented and folds beside the fold at an end, too
+        beside_end = half if (name, at) in struck else 2.0 * half
+        apart = all(
+            abs(at - other) > (beside_end if other in (first, last) else 2.0 * half) for other in around
+        )
         if apart or (name, at) in inner:
             if apart:
                 taken.insert(before, at)
             strikes = tuple(obstacle for obstacle, place in pressed if abs(at - place) <= half)
             strike = Strike(strikes, (at - start, end - at), held) if strikes else None
             yield replace(_candidate(run, name, at), near=FREE, strike=strike)
+
+
+def _least_parts(structure: StructureParts, run: StraightRun, struck: bool, held: bool) -> int:
+    """Parts into which candidates divide what lies between those at the ends of a run, if not asked for more.
+
+    Parameters
+    ----------
+    structure, run
+        The run.
+    struck
+        Whether an obstacle strikes it between its ends, and so places the fold of a strut.
+    held
+        Whether one of its ends can carry a moment.
+    """
+    name = run.first
+    if not struck and kinks_pressed(structure, name):
+        return KINKED
+    struts = braced(structure) | pushed_runs(structure)
+    buckles = not struck and not struts.isdisjoint(run.stretches)
+    # what is pressed between free ends folds somewhere
+    pressed = not held and bool(structure.members[name].elastic) and stopped(structure)
+    return 2 if buckles or pressed else 1
 
 
 def _candidate(run: StraightRun, name: str, along: float) -> Candidate:
