@@ -7,7 +7,10 @@ is their consistency: the three constants of the superfolding element belong to 
 straight hinge lines; both hats follow from the square tube; Alexander's short form is the leading term of
 the long one.  No test result was obtained.
 
-Kind: published; closed form.  Source: quoted; derived here.
+First folds, first troughs and the peaks of metal that hardens are those of columns between rigid ends that
+shells push slowly (five elements along half a fold); of the peaks none was used to find the constants.
+
+Kind: published; closed form; independent calculation.  Source: quoted; derived here; run here.
 """
 
 import math
