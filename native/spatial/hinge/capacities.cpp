@@ -88,7 +88,8 @@ SurfacePoint measure_after(const SpatialHinge& hinge, const SpatialHingeState& s
         return p;
     }
     for (int k = 0; k < size(hinge); k++) {
-        if (std::fabs(e[k]) >= spread_end(hinge.components[static_cast<size_t>(k)], e[k])) p.value += p.x[k] * first_capacity(hinge, k, p.x[k] < 0 ? 1 : 0) * flow[k];
+        if (std::fabs(e[k]) < spread_end(hinge.components[static_cast<size_t>(k)], e[k])) continue;
+        p.value += p.x[k] * first_capacity(hinge, k, p.x[k] < 0 ? 1 : 0) * flow[k];
     }
     return p;
 }

@@ -311,8 +311,9 @@ void commit(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHinge
             std::copy_n(reached.x, n, s.along);
             if (law_of(hinge, 0).softening == Softening::peak) s.softening = std::max(s.softening, s.work);
             if (law_of(hinge, 0).softening == Softening::accumulated && !stands_still(hinge, flow)) {
-                for (int k = 0; k < n; k++) e[k] -= flow[k];
-                s.softening += softening_by(hinge, e, flow);
+                double start[most] = {};
+                for (int k = 0; k < n; k++) start[k] = e[k] - flow[k];
+                s.softening += softening_by(hinge, start, flow);
             }
         }
     }

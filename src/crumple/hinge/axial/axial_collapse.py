@@ -210,7 +210,7 @@ class AxialCollapse:
         band = self.validity.uncertainty
         known = "band not known" if band is None else f"band ±{100.0 * band:.2g} %"
         if self.source is CHOSEN:
-            return self.crushing if self.peak == self.mean else "forces given in the input"
+            return self.crushing
         basis = f"{self.source.citation} ({self.source.trust.value}); {self.validity.basis}"
         return f"{self.crushing}, {known}: {basis}"
 

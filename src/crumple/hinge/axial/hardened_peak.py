@@ -55,7 +55,7 @@ class Walls:
 
         References
         ----------
-        Derived above.  Verified in tests/verification/hinge/test_hardened_columns.py.
+        Derived above.  Verified in tests/verification/hinge/test_axial_crushing.py.
         """
         curve = material.hardening
         if curve is None:

@@ -250,6 +250,8 @@ def _collapse(
             tension=tension,
             closed_stiffness=stiffness,
         )
+        if keys.peak or keys.mean:
+            law = replace(law, crushing="forces given in the input")
         return law.hardening(material, 0.0, spread, neck=neck)
     strain = crushing.peak_strain or strain_at(material, crushing.peak_force / squash)
     law = AxialCollapse.of(crushing, length, tension=tension, closed_stiffness=stiffness)

@@ -139,6 +139,7 @@ SQUARE, ROUND = "square_tube, side: 40 mm, thickness: 2 mm", "circular_tube, dia
         (SQUARE, "auto", ("superfolding", "band not known", "Wierzbicki", "compared with shells")),
         (ROUND, "auto", ("concertina", "Alexander", "compared with shells")),
         (SQUARE, "{axial: {peak: 60 kN, mean: 30 kN, stroke: 0.2 m}}", ("forces given in the input",)),
+        (SQUARE, "{axial: {peak: 60 kN, mean: 60 kN, stroke: 0.2 m}}", ("forces given in the input",)),
         (SQUARE, "{axial: true}", ("yield of the walls",)),
     ],
 )
