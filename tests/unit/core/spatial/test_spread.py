@@ -112,3 +112,10 @@ def test_energy_is_balanced_through_cycles(form, late):
 def test_spreads_that_make_no_sense_are_refused(change, message):
     with pytest.raises(ValueError, match=message):
         _kernels.spatial.HingeElement(made(**change))
+
+
+@pytest.mark.parametrize("softening", [PEAK, ACCUMULATED])
+def test_a_hinge_breaks_in_the_step_that_reaches_its_angle(softening):
+    element = rig(made(softening=softening) | {"fracture": 0.1})
+    led(element, [0.0, 1.0], 0.12)
+    assert element.state["fracture_time"] == pytest.approx(0.1, abs=0.1 * H)
