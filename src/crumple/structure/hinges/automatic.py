@@ -12,7 +12,7 @@ Distributed inertia and long spans bend members in between: `spacing` puts furth
 candidate that is never loaded to its capacity stays rigid, and changes nothing.
 
 Members of a straight run between supports (held_runs), braced members (braced), and elastic members of
-structures of which an obstacle strikes a rigid joint (joint_reach), also change their length at their hinges,
+structures that an impact presses along members (pressed), also change their length at their hinges,
 unless the input says otherwise.  Tubes of the last two kinds, and of runs of which a support drives an end,
 fold by the crushing law of their section; all others yield.
 

@@ -15,13 +15,18 @@ import numpy as np
 from crumple.numeric.arrays import Floats
 from crumple.structure.hinges.joint_reach import strikes_joint
 from crumple.structure.hinges.lengthening.at_start import nodes_at_start, obstacle_at_start
-from crumple.structure.hinges.lengthening.stopped import ALONG, stopped
+from crumple.structure.hinges.lengthening.stopped import ALONG, presses, stopped
 from crumple.structure.parts import StructureParts
 
 
 def struck_along(structure: StructureParts, member: str) -> bool:
-    """Whether an impact presses a structure together along its members, of which this one can yield."""
-    return bool(structure.members[member].elastic) and (strikes_joint(structure) or stopped(structure))
+    """Whether an impact presses a structure together along its members, of which this one can yield.
+
+    Where rails sway the force along them stays below the squash load, and takes from their moment.
+    """
+    return bool(structure.members[member].elastic) and (
+        strikes_joint(structure) or presses(structure) or stopped(structure)
+    )
 
 
 def kinks_pressed(structure: StructureParts, member: str) -> bool:
