@@ -75,12 +75,15 @@ class AxisShares:
     rigid
         Whether no hinge is elastic about the axis; lengths and joints are then those that the elastic form
         would have.
+    free
+        Whether the bar's first and last end carry no moment about the axis.
     """
 
     lengths: Mapping[str, float]
     joints: tuple[tuple[float, float], ...]
     elastic: bool
     rigid: bool
+    free: tuple[bool, bool] = (False, False)
 
 
 def bar_shares(
@@ -316,11 +319,13 @@ def _about(
     together = sorted([*((place.station, place.name) for place in points), *((at, "") for at in between)])
     rigid, free = ends
     shear = shear_stretch(structure, bar, axis) if bent else 0.0
-    shared = flexibility(tuple([at for at, _ in together]), bar.length, rigid, free(axis), shear)
+    stations = tuple([at for at, _ in together])
+    shared = flexibility(stations, bar.length, rigid, free(axis), shear)
     found = list(zip(together, shared.lengths, strict=True))
     lengths = {name: length for (_, name), length in found if name}
     joints = (*((at, length) for (at, name), length in found if not name), *shared.joints)
-    return AxisShares(lengths, joints, "auto" in springs or bool(between), not elastic and not between)
+    bends, no_spring = "auto" in springs or bool(between), not elastic and not between
+    return AxisShares(lengths, joints, bends, no_spring, free(axis))
 
 
 def _of_corner(structure: StructureParts, place: HingePlace, axis: Axis) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -59,7 +59,7 @@ def elastic_joints(
     by_member: dict[str, list[tuple[float, dict[Axis, float]]]] = defaultdict(list)
     for along, by_axis in lengths:
         by_member[bar.member_at(along)].append((along, by_axis))
-    beside = _Beside(structure, bar, own)
+    beside = _Beside(structure, bar, own, {axis: shares.free for axis, shares in about.items()})
     found = []
     for member, joints in by_member.items():
         stretch = bar.stretches[member]
@@ -102,11 +102,12 @@ def _placed(
 
 @dataclass(frozen=True)
 class _Beside:
-    """A bar and its hinges, beside which its joints lie."""
+    """A bar and its hinges, beside which its joints lie; which of its ends carry no moment, by axis."""
 
     structure: StructureParts
     bar: StraightRun
     own: list[PlacedHinge]
+    free: Mapping[Axis, tuple[bool, bool]]
 
     def twist(self, along: float, length: float, bending: dict[Axis, HingeRecord]) -> HingeComponent:
         """Twist of a joint that stands for a length of the bar [m]: it yields as it bends."""
@@ -143,9 +144,9 @@ class _Beside:
     def record(self, axis: Axis, along: float, length: float) -> HingeRecord:
         """Record of a joint that stands for a length of the bar [m].
 
-        One between an end and the fold there, or in a rigid joint, does not yield: the hinge stands for the
-        fold of all that lies beyond it. Walls that yielded there without folding would carry its largest
-        moment whatever the rotation.
+        One between an end that carries a moment and the fold there, or in a rigid joint, does not yield: the
+        hinge stands for the fold of all that lies beyond it. Walls that yielded there without folding would
+        carry its largest moment whatever the rotation.
         """
         elastic = self.structure.members[self.bar.first].elastic
         if elastic and not self._beyond_a_fold(axis, along):
@@ -163,7 +164,7 @@ class _Beside:
     def _beyond_a_fold(self, axis: Axis, along: float) -> bool:
         """Whether a place lies in a rigid joint, or between an end and a hinge less than one fold away.
 
-        The hinge of a corner counts in both of its members.  Of a bar without hinges no place does: nothing
+        Towards an end without a moment the moment falls, and walls yield less than at the hinge.  The hinge of a corner counts in both of its members.  Of a bar without hinges no place does: nothing
         else stands for its folds.
         """
         at_corners = self._folds_at_corners(axis)
@@ -180,7 +181,10 @@ class _Beside:
         folds = [*own, *at_corners]
         if not folds or min(folds) <= along <= max(folds):
             return False
-        nearest = min(folds) if along < min(folds) else max(folds)
+        after = along > max(folds)
+        if self.free[axis][after]:
+            return False
+        nearest = max(folds) if after else min(folds)
         fold = 2.0 * half_fold_length(self.structure.section_of(self.bar.first), axis)
         return abs(along - nearest) <= fold
 
