@@ -36,7 +36,7 @@ def portal(**settings):
                 "beam": {"nodes": ("c", "d"), "section": "wide", **up},
             },
             hinge_laws={"elastic": ELASTIC},
-            hinges={"law": "elastic"},
+            hinges={"law": "elastic", "axial": False},
             supports={foot: {"node": foot, "fix": ["x", "y", "z"]} for foot in "ab"},
             masses={"corner": {"node": "d", "mass": 43.0}},
             initial_velocity=[{"translation": (3.65, 0.0, -3.0), "nodes": ["c", "d"]}],

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from tests.unit.multibody.checks.test_crushing import KINKED_RAIL
 from tests.unit.multibody.checks.test_overloaded import rails
 
 from crumple._core.outcome import Outcome
@@ -44,9 +45,7 @@ def test_the_answer_is_that_of_rigid_bars(ended):
 
 
 def crushed():
-    settings = "hinges: auto\nanalysis:\n  multibody: {members: rigid}"
-    text = Path("examples/07_axial_crush.yaml").read_text(encoding="utf-8")
-    analysis = loads(text.replace("analysis:", settings))
+    analysis = loads(KINKED_RAIL.replace("MEMBERS", "rigid"))
     return analysis.structure, run_of(analysis)
 
 

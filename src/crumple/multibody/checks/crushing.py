@@ -32,6 +32,7 @@ from crumple.section import AXES, plastic_interaction
 from crumple.structure import Structure
 from crumple.structure.checks.doubtful import double_members
 from crumple.structure.hinges.asked import automatic_of
+from crumple.structure.hinges.lengthening.pressed import presses_along
 from crumple.units import format_quantity, plain_number
 
 ALONG = np.cos(np.radians(30.0))
@@ -41,7 +42,7 @@ CLOSED = 1.02
 """Crushed length over the stroke above which a caution is given: stops yield a little."""
 BEND = (
     "or 'members: elastic' in analysis.multibody, with which automatic hinges shorten where an impact "
-    "would stop the structure, "
+    "presses along members, "
 )
 """What else helps rigid members with automatic hinges."""
 
@@ -144,8 +145,11 @@ def _euler(structure: Structure, member: str) -> float:
 
 
 def _bending(structure: Structure, members: Iterable[str]) -> str:
-    """What else helps rigid members with automatic hinges."""
-    if any(structure.members[name].elastic or automatic_of(structure, name) is None for name in members):
+    """What else helps rigid members with automatic hinges, if an impact presses along members."""
+    able = (
+        automatic_of(structure, name) is not None and not structure.members[name].elastic for name in members
+    )
+    if not (presses_along(structure) and all(able)):
         return ""
     return BEND
 

@@ -79,8 +79,15 @@ def frame(nodes, bars, clamps="", *, own=None, **parts):
     ],
 )  # fmt: skip
 def test_members_of_frames(nodes, bars, clamps, expected):
-    whole = frame(nodes, bars, clamps)
-    assert {name for name in whole.members if lengthens(whole, name)} == set(expected.split())
+    still = frame(nodes, bars, clamps, initial_velocity=())
+    assert {name for name in still.members if lengthens(still, name)} == set(expected.split())
+
+
+@pytest.mark.parametrize(("thrown", "all_of_them"), [((1.0, 0.0, 0.0), False), ((0.3, 0.0, -3.0), True)])
+def test_members_that_an_impact_would_stop_lengthen_in_rigid_models_too(thrown, all_of_them):
+    """A portal may sway; thrown on its clamps it would stop at once."""
+    portal = frame(FLAT, "a-b b-c c-d", "a d", initial_velocity=[{"translation": thrown}])
+    assert [lengthens(portal, name) for name in portal.members] == [all_of_them] * 3
 
 
 def test_in_space_a_clamped_l_frame_turns_about_the_line_between_its_clamps():

@@ -22,11 +22,19 @@ from crumple.structure.parts import StructureParts
 def struck_along(structure: StructureParts, member: str) -> bool:
     """Whether an impact presses a structure together along its members, of which this one can yield.
 
-    Where rails sway the force along them stays below the squash load, and takes from their moment.
+    Rigid bars yield only where all would stop at once.
     """
-    return bool(structure.members[member].elastic) and (
-        strikes_joint(structure) or presses(structure) or stopped(structure)
-    )
+    if stopped(structure):
+        return True
+    return bool(structure.members[member].elastic) and presses_along(structure)
+
+
+def presses_along(structure: StructureParts) -> bool:
+    """Whether an impact presses a structure along members, which may sway under it.
+
+    The force along them then stays below the squash load, and takes from their moment.
+    """
+    return strikes_joint(structure) or presses(structure)
 
 
 def kinks_pressed(structure: StructureParts, member: str) -> bool:
