@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from crumple.hinge import Form, Freedom, SofteningVariable
+from crumple.multibody.answer.crush import crush_of
 from crumple.multibody.answer.solved import HingeHistory, Solved, Solver
 from crumple.multibody.bodies.crumpling_ends import crumpling_ends
 from crumple.multibody.bodies.linkage import link
@@ -250,8 +251,16 @@ def _of_hinge(structure: Structure, history: HingeHistory) -> Iterator[tuple[str
     hinge = history.hinge
     bent = history.bent_by_law()
     # what its law says of section and metal holds for a hinge at rest, too
-    for law in dict.fromkeys(law for _, law, _ in bent) or (hinge.law,):
-        yield from ((_literal(text), 0.0) for text in law.validity.warnings)
+    told = [
+        text
+        for law in dict.fromkeys(law for _, law, _ in bent) or (hinge.law,)
+        for text in law.validity.warnings
+    ]
+    yield from ((_literal(text), 0.0) for text in told)
+    # of slip that nobody asked for, and that did not happen, nothing is to be said
+    if hinge.spatial is not None and crush_of(structure, history) is not None:
+        along = [text for part in hinge.spatial.components for text in part.warnings if text not in told]
+        yield from ((f"crushing along the member: {_literal(text)}", 0.0) for text in along)
     for _, law, turned in bent:
         jammed = law.jamming_angle is not None and turned > law.jamming_angle
         # a closed fold has a caution of its own
