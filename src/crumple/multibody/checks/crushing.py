@@ -68,11 +68,12 @@ def crushing_cautions(structure: Structure, solved: Solved, *, struck: bool) -> 
     at_hinges = _pressed(structure, solved, shortening=False)
     for member, force in (*at_hinges, *(_blows(structure, solved) if struck else ())):
         found[member] = max(force, found.get(member, 0.0))
-    alike: dict[tuple[str, str], dict[str, float]] = {}
+    hinged = {history.hinge.member for history in solved.hinges}
+    alike: dict[tuple[str, str, bool], dict[str, float]] = {}
     for member, force in found.items():
         spec = structure.members[member]
-        alike.setdefault((spec.section, spec.material), {})[member] = force
-    for members in alike.values():
+        alike.setdefault((spec.section, spec.material, member in hinged), {})[member] = force
+    for (_, _, has_hinges), members in alike.items():
         law, peak = _folding(structure, next(iter(members)))
         beyond = {member: force for member, force in members.items() if force > peak}
         if not beyond:
@@ -83,12 +84,17 @@ def crushing_cautions(structure: Structure, solved: Solved, *, struck: bool) -> 
         text = (
             f"{named('Member', list(beyond))} {'carries' if one else 'carry'} up to "
             f"{plain_number(max(beyond.values()) / 1e3)} kN along {'its axis' if one else 'their axes'}, and "
-            f"{plain_number(peak / 1e3)} kN fold the walls ({what}), but nothing in {it} can shorten: axial "
-            f"folding is not modelled. Give {it} hinges with 'axial: {{law: {law or 'superfolding'}}}', "
+            f"{plain_number(peak / 1e3)} kN fold the walls ({what}), but "
+            f"{f'nothing in {it} can shorten' if has_hinges else _bare(len(beyond))}: axial folding is not "
+            f"modelled. Give {it} hinges with 'axial: {{law: {law or 'superfolding'}}}', "
             f"{'' if solved.bending_tried else _bending(structure, beyond)}or solve with shells."
         )
         for member, force in beyond.items():
             yield Caution("axial_compression", force, peak, "N", f"member {member}", text)
+
+
+def _bare(number: int) -> str:
+    return f"without hinges {'it is one rigid body' if number == 1 else 'each is one rigid body'}"
 
 
 def closed_together(structure: Structure, solved: Solved) -> Iterator[Caution]:
@@ -253,9 +259,13 @@ def _euler(structure: Structure, member: str) -> float:
 
 
 def _bending(structure: Structure, members: Iterable[str]) -> str:
-    """What else helps rigid members with automatic hinges."""
-    if any(structure.members[name].elastic or automatic_of(structure, name) is None for name in members):
-        return ""
+    """What else helps rigid members with automatic hinges; those without any get them where members bend."""
+    for name in members:
+        spec = structure.members[name]
+        if spec.elastic or (automatic_of(structure, name) is None and spec.hinges is not None):
+            return ""
+        if spec.bars.number > 1:
+            return ""
     return BEND
 
 
@@ -298,7 +308,9 @@ def _blows(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:
             wave = math.sqrt(material.youngs_modulus / material.density)
             blow = _strongest(solved.time, force, 2.0 * frame.length / wave)
             along = abs(float(blow @ frame.x))
-            if member not in shortening and along > ALONG * np.linalg.norm(blow):
+            # what the input calls rigid is to carry everything, in shells too
+            meant = structure.members[member].rigid is True
+            if member not in shortening and not meant and along > ALONG * np.linalg.norm(blow):
                 yield member, along
 
 
