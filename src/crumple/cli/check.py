@@ -82,6 +82,7 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
         notes,
         obstacle_overlap_warnings,
         struck_cautions,
+        struck_near_ends,
         stuck_drives,
         stuck_note,
         swept_supports,
@@ -99,6 +100,7 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
     yield from driven_assumptions(structure)
     yield from loose_drives(structure, linkage)
     yield from (f"Caution: {caution.text}" for caution in struck_cautions(structure))
+    yield from (f"Caution: {text}" for text in struck_near_ends(structure))
     if not analysis.stages:
         yield from (f"Caution: {text}" for text in swept_supports(structure, analysis.duration))
     yield from (f"Caution: {text}" for text in obstacle_overlap_warnings(structure, analysis.stages))
