@@ -87,6 +87,7 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
         stuck_note,
         swept_supports,
         unheld_notes,
+        with_drives_released,
     )
     from crumple.structure import with_elastic_members
     from crumple.structure.checks.partly_driven import driven_assumptions
@@ -96,7 +97,10 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
     linkage = link(structure)
     loose = unheld_notes(analysis.structure, linkage, analysis.stages)
     stuck = stuck_note(stuck_drives(analysis.structure, linkage))
-    yield from filter(None, (*notes(linkage), infinitesimal(linkage), stuck, *loose))
+    yield from filter(
+        None,
+        (*notes(linkage, with_drives_released(structure, linkage)), infinitesimal(linkage), stuck, *loose),
+    )
     yield from driven_assumptions(structure)
     yield from loose_drives(structure, linkage)
     yield from (f"Caution: {caution.text}" for caution in struck_cautions(structure))

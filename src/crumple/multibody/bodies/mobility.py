@@ -204,15 +204,27 @@ def free_twists(linkage: Linkage, points: Floats, *, locked: bool = False) -> Fl
     return found
 
 
-def notes(linkage: Linkage) -> tuple[str, ...]:
-    """Sentences about parts that are not held, hinges that cannot rotate, and redundant constraints."""
+def notes(linkage: Linkage, released: Linkage | None = None) -> tuple[str, ...]:
+    """Sentences about parts that are not held, hinges that cannot rotate, and redundant constraints.
+
+    Parameters
+    ----------
+    linkage
+        Its driven freedoms count as held.
+    released
+        The same with all driven freedoms free, if there are any: what a drive moves is not stuck.
+    """
     if too_large(linkage):
         return ("The structure is too large to count what is free, locked or held twice.",)
     found = list(free_parts(linkage))
     free = mobility(linkage)
     names = [connection.name for connection in linkage.connections]
-    if free.stuck:
-        text = _named("Hinge or joint", "Hinges and joints", [names[i] for i in free.stuck])
+    stuck = free.stuck
+    if stuck and released is not None:
+        held = mobility(released).stuck
+        stuck = tuple(i for i in stuck if i in held)
+    if stuck:
+        text = _named("Hinge or joint", "Hinges and joints", [names[i] for i in stuck])
         found.append(f"{text} cannot move at the start: the closed loops around prevent it.")
     # every loop that moves in a plane is held thrice across it, which says nothing of forces in the plane
     redundant = free.redundant - free.across
