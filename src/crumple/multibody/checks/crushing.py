@@ -97,7 +97,7 @@ def _bare(number: int) -> str:
     return f"without hinges {'it is one rigid body' if number == 1 else 'each is one rigid body'}"
 
 
-def closed_together(structure: Structure, solved: Solved) -> Iterator[Caution]:
+def _closed_together(structure: Structure, solved: Solved) -> Iterator[Caution]:
     """Members whose hinges together are crushed by more than the stroke of their folds.
 
     Every hinge has the stroke of the whole member, since the folds begin where the peak is reached first.
@@ -122,7 +122,7 @@ def closed_together(structure: Structure, solved: Solved) -> Iterator[Caution]:
 
 
 def lengths_beyond(structure: Structure, solved: Solved) -> Iterator[Caution]:
-    """Members that are shorter than closed folds, where no stroke stops them, or longer than metal stretches.
+    """Members that are shorter than closed folds, or longer than metal stretches.
 
     Notes
     -----
@@ -131,6 +131,7 @@ def lengths_beyond(structure: Structure, solved: Solved) -> Iterator[Caution]:
     `CLOSEST`.  Metal stretches evenly up to its neck (Considere's condition on its hardening curve) or its
     failure strain; what comes later is in a length of about a side, which tears.
     """
+    yield from _closed_together(structure, solved)
     for members, slip in _changes_of_length(structure, solved).items():
         if _unstopped(structure, solved, members):
             yield from _shorter(structure, members, solved.time, slip)
@@ -150,7 +151,7 @@ def _shorter(structure: Structure, members: tuple[str, ...], time: Floats, slip:
     text = (
         f"{named('Member', list(members))}, {lengths[1]} long, {_is(members)} crushed by {lengths[0]} "
         f"({left}): folds of the section are closed at {lengths[3]}{f' (law {law})' if law else ''}, reached "
-        f"at {format_quantity(when, 's', 3)}, but the hinges there yield without folds and have no stroke. "
+        f"at {format_quantity(when, 's', 3)}, but no stroke on the member ends that at its hinges. "
         "From then on forces are too small and displacements too large. "
         f"Give the hinges {given}, or solve with shells."
     )
@@ -199,9 +200,10 @@ def _changes_of_length(structure: Structure, solved: Solved) -> dict[tuple[str, 
 
 
 def _unstopped(structure: Structure, solved: Solved, members: Iterable[str]) -> bool:
-    """Whether no hinge of these members has a stroke: of others there are cautions of their own."""
+    """Whether no hinge of these members has a stroke on them: of others there are cautions of their own."""
+    length = sum(structure.frame_of(name).length for name in members)
     zones = (crush_of(structure, one) for one in solved.hinges if one.hinge.member in members)
-    return all(zone is None or zone.stroke is None for zone in zones)
+    return all(zone is None or zone.stroke is None or zone.stroke >= length for zone in zones)
 
 
 def _closing(structure: Structure, member: str) -> tuple[str, float]:

@@ -56,6 +56,8 @@ def test_what_a_law_of_crushing_says_of_its_section_is_a_warning_as_that_of_bend
         (True, -38.0, "", ""),
         (True, -50.0, "crushed_beyond", "Member ab, 400 mm long, is crushed by "),
         (True, -60.0, "crushed_beyond", "ends have passed each other"),
+        # a stroke as long as the member stops nothing
+        ({"peak": 142e3, "mean": 142e3, "stroke": 0.5}, -50.0, "crushed_beyond", "no stroke on the member"),
         # folds with a stroke have the caution of their stop
         ({"law": "square"}, -60.0, "bottomed_out", "it is crushed by"),
         (True, 20.0, "", ""),
