@@ -14,7 +14,8 @@ Nothing is refused for them.  The ranges are wide, so that whoever is outside of
 - Mass of a lump or obstacle up to 100 000 t: a loaded ship.  Small ones do no harm.
 - Offset of a lump from its node up to 100 m: half of a ship.
 - Speed up to 500 m/s: above it shock waves in the metal matter, which neither solver has.  Of an initial
-  rotation the speed of the fastest node counts: the blades of a gas turbine have 400 m/s at their tips.
+  rotation the speed of the fastest node counts: the blades of a gas turbine have 400 m/s at their tips.  Of
+  a drive the steepest part of its curve counts.
 - Gravity up to 5000 m/s2: 500 g stand for a hard pulse; 9810 is the number in mm/s2.
 - Duration 10 microseconds to 1 h: waves cross a section in the former; creep, which no law has, begins to
   matter in the latter.
