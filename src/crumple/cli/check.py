@@ -82,10 +82,12 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
         notes,
         obstacle_overlap_warnings,
         struck_cautions,
+        struck_near_ends,
         stuck_drives,
         stuck_note,
         swept_supports,
         unheld_notes,
+        with_drives_released,
     )
     from crumple.structure import with_elastic_members
     from crumple.structure.checks.partly_driven import driven_assumptions
@@ -95,10 +97,14 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
     linkage = link(structure)
     loose = unheld_notes(analysis.structure, linkage, analysis.stages)
     stuck = stuck_note(stuck_drives(analysis.structure, linkage))
-    yield from filter(None, (*notes(linkage), infinitesimal(linkage), stuck, *loose))
+    yield from filter(
+        None,
+        (*notes(linkage, with_drives_released(structure, linkage)), infinitesimal(linkage), stuck, *loose),
+    )
     yield from driven_assumptions(structure)
     yield from loose_drives(structure, linkage)
     yield from (f"Caution: {caution.text}" for caution in struck_cautions(structure))
+    yield from (f"Caution: {text}" for text in struck_near_ends(structure))
     if not analysis.stages:
         yield from (f"Caution: {text}" for text in swept_supports(structure, analysis.duration))
     yield from (f"Caution: {text}" for text in obstacle_overlap_warnings(structure, analysis.stages))

@@ -9,8 +9,8 @@ from crumple.multibody.bodies.linkage import Connection, Linkage, link
 from crumple.multibody.bodies.mobility import notes
 from crumple.multibody.checks.infinitesimal import infinitesimal
 from crumple.multibody.checks.overlap import obstacle_overlap_warnings
-from crumple.multibody.checks.struck import struck_cautions, swept_supports
-from crumple.multibody.checks.stuck_drives import loose_drives, stuck_drives, stuck_note
+from crumple.multibody.checks.struck import struck_cautions, struck_near_ends, swept_supports
+from crumple.multibody.checks.stuck_drives import loose_drives, stuck_drives, stuck_note, with_drives_released
 from crumple.multibody.checks.unheld import unheld_notes
 from crumple.multibody.planar.mechanism import Link, Mechanism, lower
 from crumple.multibody.planar.model import planar_initial_motion, tree_hinge, tree_model
@@ -52,10 +52,12 @@ __all__ = [
     "solver_of",
     "stepping_seconds",
     "struck_cautions",
+    "struck_near_ends",
     "stuck_drives",
     "stuck_note",
     "swept_supports",
     "tree_hinge",
     "tree_model",
     "unheld_notes",
+    "with_drives_released",
 ]

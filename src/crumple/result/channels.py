@@ -55,7 +55,12 @@ KINDS = (
         "part of the rotation that remains when the moment is removed",
     ),
     Kind("hinge.NAME.moment", "N*m", "resisting moment, including stop and damper"),
-    Kind("hinge.NAME.capacity", "N*m", "largest moment that the law allows at present", "M"),
+    Kind(
+        "hinge.NAME.capacity",
+        "N*m",
+        "largest moment that the law allows at present; of several rotations no limit, as below",
+        "M",
+    ),
     Kind("hinge.NAME.energy", "J", "energy absorbed so far"),
     Kind(
         "hinge.NAME.rotation.xyz",
@@ -66,7 +71,7 @@ KINDS = (
     Kind("hinge.NAME.rotation_rate.xyz", "rad/s", "its rate", "MS, S"),
     Kind("hinge.NAME.plastic_rotation.xyz", "rad", "its plastic part", "MS, S"),
     Kind("hinge.NAME.moment.xyz", "N*m", "moment about each axis", "MS, S"),
-    Kind("hinge.NAME.capacity.xyz", "N*m", "capacity about each axis", "MS"),
+    Kind("hinge.NAME.capacity.xyz", "N*m", "capacity about each axis if nothing else loads the hinge", "MS"),
     Kind(
         "hinge.NAME.slip.x.travel",
         "m",
@@ -81,7 +86,12 @@ KINDS = (
         "MS",
     ),
     Kind("hinge.NAME.slip.x.force", "N", "axial force of the hinge, positive in tension", "MS"),
-    Kind("hinge.NAME.slip.x.capacity", "N", "largest axial force that the law allows at present", "MS"),
+    Kind(
+        "hinge.NAME.slip.x.capacity",
+        "N",
+        "largest axial force at present if nothing else loads the hinge",
+        "MS",
+    ),
     Kind("member.NAME.energy", "J", "energy absorbed by all hinges of a member, and dents in its walls", "M"),
     Kind(
         "node.NAME.displacement.xyz",

@@ -27,7 +27,7 @@ class StretchSummary:
     peak_force
         Largest tension [N].
     energy
-        Work of the tension [J].
+        Dissipated in tension [J], at least 0.
     """
 
     length: float
@@ -89,9 +89,9 @@ class CrushSummary:
     length, length_final
         Largest shortening, and that at the end [m].
     peak_force, mean_force
-        Largest compression [N], and the work of crushing over the largest shortening [N]; 0 without any.
+        Largest compression [N], and the energy over the largest shortening [N]; 0 without any.
     energy
-        Work of crushing [J]; where the hinge also lengthens, that of the compression alone.
+        Dissipated in compression [J], at least 0; of a hinge that is crushed several times that of all.
     stroke
         Shortening at which the folds are closed [m]; None where the law has none.
     efficiency
@@ -123,20 +123,18 @@ def crush_summary(
     travel
         Slip along the member [m], (n,); negative: shorter.
     force
-        In the sense of the slip's rate [N], (n,).
+        Positive in tension [N], (n,).
     member_length
         [m].
     stroke
         Shortening at which the folds are closed [m], or None.
     energy
-        Work of crushing [J] where it is known; else it is summed over the histories, stops included.
+        Dissipated in compression [J] where it is known; else `slip_work` of both histories.
     """
     shortening = np.maximum(-travel, 0.0)
     length = float(shortening.max(initial=0.0))
-    if float(travel.max(initial=0.0)) > MOVED * member_length:
-        energy = _work(travel, np.minimum(force, 0.0))
-    elif energy is None:
-        energy = _work(travel, force)
+    if energy is None:
+        energy = slip_work(travel, force)[0]
     return CrushSummary(
         length=length,
         length_final=float(shortening[-1]) if shortening.size else 0.0,
@@ -149,17 +147,41 @@ def crush_summary(
     )
 
 
-def stretch_summary(travel: Floats, force: Floats, member_length: float) -> StretchSummary | None:
+def stretch_summary(
+    travel: Floats, force: Floats, member_length: float, energy: float | None = None
+) -> StretchSummary | None:
     """Figures of a hinge that lengthens along its member; None up to `MOVED`.  See `crush_summary`."""
     lengthening = np.maximum(travel, 0.0)
     length = float(lengthening.max(initial=0.0))
     if length <= MOVED * member_length:
         return None
     tension = np.maximum(force, 0.0)
-    return StretchSummary(
-        length, float(lengthening[-1]), float(tension.max(initial=0.0)), _work(travel, tension)
-    )
+    if energy is None:
+        energy = slip_work(travel, force)[1]
+    return StretchSummary(length, float(lengthening[-1]), float(tension.max(initial=0.0)), energy)
 
 
-def _work(travel: Floats, force: Floats) -> float:
-    return float(((force[1:] + force[:-1]) / 2.0 * np.diff(travel)).sum())
+def slip_work(travel: Floats, force: Floats) -> tuple[float, float]:
+    """Energy dissipated by a slip in compression and in tension [J], both at least 0.
+
+    Parameters
+    ----------
+    travel
+        Plastic slip [m], (n,); negative: shorter.
+    force
+        Positive in tension [N], (n,).
+
+    Notes
+    -----
+    A slip follows its force.  Between two outputs acts the mean of the forces at both that have the sense of
+    the slip between them, one alone where the other has the opposite sense: there the slip began, or turned
+    about, and the product of means would give energy back.
+    """
+    slip = np.diff(travel)
+    works = []
+    for sense in (-1.0, 1.0):
+        with_it = np.maximum(sense * force, 0.0)
+        first, last = with_it[:-1], with_it[1:]
+        acting = (first + last) / np.maximum((first > 0.0).astype(float) + (last > 0.0), 1.0)
+        works.append(float((acting * np.maximum(sense * slip, 0.0)).sum()))
+    return works[0], works[1]

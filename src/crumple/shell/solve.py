@@ -17,6 +17,7 @@ from crumple.shell.answer.record import ENERGIES, Record, Sampler
 from crumple.shell.answer.shapes import states_of
 from crumple.shell.checks import trust
 from crumple.shell.checks.refusals import refuse_steps
+from crumple.shell.mesh.time_step import stable_steps
 from crumple.shell.model.model import ShellCase, lower
 from crumple.shell.stepping import Cancel, Hooks, LongRun, Progress, ShellRun, Stepping, with_place
 from crumple.structure import Structure
@@ -95,8 +96,21 @@ def _started(structure: Structure, run: ShellRun) -> tuple[ShellCase, ShellState
         state = ShellState(case.model)
     except InputError as error:
         raise _named(error, case) from error
-    refuse_steps(run.settings, run.sequence, state.first_time_step)
-    return replace(case, report=replace(case.report, time_step=state.first_time_step)), state
+    slowest = _slowest(case)
+    refuse_steps(run.settings, run.sequence, state.first_time_step, slowest)
+    report = replace(case.report, time_step=state.first_time_step, slowest=slowest)
+    return replace(case, report=report), state
+
+
+def _slowest(case: ShellCase) -> str:
+    """Where the element lies that sets the first time step; empty if added mass sets it."""
+    steps, settings = stable_steps(case.model), case.model.settings
+    least = int(np.argmin(steps))
+    if not np.isfinite(steps[least]) or settings.safety * steps[least] < settings.scaled_step:
+        return ""
+    corner = case.mesh.position[case.mesh.quads[least]]
+    sides = np.linalg.norm(np.roll(corner, -1, axis=0) - corner, axis=1)
+    return f"{case.mesh.place_of(least)}, its smallest side {1e3 * sides[sides > 0.0].min():.3g} mm"
 
 
 def _result(structure: Structure, run: ShellRun, stepping: Stepping, status: Status, reason: str) -> Result:

@@ -4,8 +4,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.support.structures import STEEL
 
 import crumple
+from crumple.multibody import Run, solve_multibody
 from crumple.result.channels import (
     BEGIN,
     END,
@@ -17,6 +19,7 @@ from crumple.result.channels import (
     main,
     names_of,
 )
+from crumple.structure import MultibodySettings, Structure
 
 PAGE = Path("docs/conventions.md")
 
@@ -78,3 +81,23 @@ def test_the_last_column_names_the_solvers_of_a_channel(example, given_by):
     assert {by_name[name] for name in found} <= given_by
     always = {name for name, by in by_name.items() if by == "" and not name.startswith("node.")}
     assert always <= found
+
+
+def test_the_capacity_of_a_hinge_is_that_without_other_loads_and_no_limit_of_several_moments():
+    """A square tube between both axes yields below either capacity, far below the length of the vector."""
+    law = {"type": "constant", "moment": 5000.0, "rate": "off"}
+    hinge = {"name": "foot", "at": 0.05, "law": law, "axes": ("y", "z")}
+    structure = Structure(
+        materials={"steel": STEEL},
+        sections={"tube": {"type": "square_tube", "side": 0.05, "thickness": 0.0015}},
+        nodes={"a": (0, 0, 0), "b": (0, 0, 0.4)},
+        members={"ab": {"nodes": ("a", "b"), "section": "tube", "material": "steel", "hinges": (hinge,)}},
+        supports={"clamp": {"node": "a", "fix": "all"}},
+        masses={"m": {"node": "b", "mass": 50.0}},
+        initial_velocity=[{"nodes": ("b",), "translation": (3.0, 3.0, 0.0)}],
+    )
+    result = solve_multibody(structure, Run(0.01, 1e-3, MultibodySettings()))
+    alone = [result[f"hinge.foot.capacity.{axis}"][5] for axis in "yz"]
+    assert alone == pytest.approx([5000.0, 5000.0])
+    assert result["hinge.foot.capacity"][5] == pytest.approx(np.hypot(*alone))
+    assert 4500.0 < result["hinge.foot.moment"][5] < 5000.0

@@ -21,6 +21,7 @@ Derived here; not valid for a column shorter than its fold, or one that buckles 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -37,6 +38,7 @@ from crumple.material import Material
 from crumple.material.hardening.curve import HardeningCurve
 from crumple.numeric.arrays import Floats
 from crumple.numeric.monotone_root import rising_root
+from crumple.units import format_quantity
 
 CHOSEN = Source("none", Trust.ASSUMED, "peak, mean and stroke are the user's choice")
 FIRST_FALL = 0.05
@@ -159,7 +161,8 @@ class AxialCollapse:
         Notes
         -----
         The rate factor of the law is defined for the impact speed; the current speed of shortening is used.
-        If the mean force is above the peak (thick walls), the peak is set to it.
+        A mean force above the peak (thick walls) is lowered to it, and a column shorter than one fold has
+        none: the range then has a warning for either.
         """
         mean, half = min(law.mean_crushing_force, law.peak_force), law.half_fold_length
         made = cls.given(
@@ -173,7 +176,8 @@ class AxialCollapse:
         rate = None
         if law.rate is not None:
             rate = HingeRate(law.rate.metal.D / law.rate.shape, law.rate.metal.q)
-        basis = Validity(math.inf, law.validity.basis, law.validity.warnings, law.validity.uncertainty)
+        doubts = (*law.validity.warnings, *_doubts(law, length))
+        basis = Validity(math.inf, law.validity.basis, doubts, law.validity.uncertainty)
         return replace(made, rate=rate, source=law.source, validity=basis, crushing=law.title)
 
     def hardening(
@@ -232,6 +236,21 @@ class AxialCollapse:
     def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
         """Factor at a speed of slip [m/s]."""
         return rate_factor(self.rate, rotation_rate)
+
+
+def _doubts(law: AxialLaw, length: float) -> Iterator[str]:
+    """What a law says of no column of this length [m], and of no wall this thick."""
+    if law.half_fold_length is not None and length < 2.0 * law.half_fold_length:
+        yield (
+            f"what folds is {format_quantity(length, 'm', 3)} long, less than one fold of the law, "
+            f"{format_quantity(2.0 * law.half_fold_length, 'm', 3)}: it cannot fold so"
+        )
+    if law.mean_crushing_force > law.peak_force:
+        yield (
+            f"its mean force, {format_quantity(law.mean_crushing_force, 'N', 3)}, is above its peak, "
+            f"{format_quantity(law.peak_force, 'N', 3)}, which is used instead: walls this thick are crushed "
+            "without folds"
+        )
 
 
 def _rise(curve: HardeningCurve, strain: float, sense: int, length: float) -> _Curve:

@@ -14,9 +14,11 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike
 
+from crumple.errors import InputError, Problem
 from crumple.hinge.law import Source
 from crumple.material import CowperSymonds, Material
 from crumple.numeric.arrays import Floats
+from crumple.section import Section
 
 
 @dataclass(frozen=True)
@@ -112,6 +114,20 @@ def rate_factor_of(law: AxialLaw, impact_speed: ArrayLike) -> Floats:
     if law.rate is None:
         return np.ones_like(np.asarray(impact_speed, np.float64))
     return law.rate.factor(impact_speed)
+
+
+LAWS_OF = {
+    "rectangular_tube": "use the law superfolding",
+    "circular_tube": "use the law circular",
+    "closed_hat": "use the law top_hat",
+}
+"""What to do, by the kind of section, where another law does not take it."""
+
+
+def wrong_section(what: str, section: Section, allowed: str) -> InputError:
+    """Refusal of a section by a law, with the law that takes it if there is one."""
+    none = "no law of axial crushing takes it: give peak, mean and stroke, or 'axial: true' to yield only"
+    return InputError(Problem(what, section.title, allowed, LAWS_OF.get(section.kind, none), "section"))
 
 
 class CrushDistance(Enum):

@@ -33,6 +33,7 @@ from crumple.hinge.axial.axial_law import (
     CrushValidity,
     crush_rate,
     curved_wall_moment,
+    wrong_section,
 )
 from crumple.hinge.axial.hardened_peak import ROUND, rise
 from crumple.hinge.law import Source, Trust
@@ -118,8 +119,7 @@ class CircularCrushing:
         lobes = choice("mode", mode, Lobes)
         distance = choice("crush_distance", crush_distance, CrushDistance)
         if not isinstance(section, CircularTube):
-            what, todo = "this law is for circular tubes", "use square, superfolding or top_hat"
-            raise InputError(Problem(what, section.title, "circular_tube", todo, "section"))
+            raise wrong_section("this law is for circular tubes", section, "circular_tube")
         if lobes is Lobes.DIAMOND and distance is CrushDistance.FULL:
             what, todo = "the diamond mode has no mean over the full length", "omit crush_distance"
             raise InputError(Problem(what, "full", "effective", todo, "crush_distance"))

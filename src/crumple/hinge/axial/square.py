@@ -20,12 +20,12 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import ClassVar
 
-from crumple.errors import InputError, Problem
 from crumple.hinge.axial.axial_law import (
     CrushRate,
     CrushValidity,
     crush_rate,
     flat_wall_moment,
+    wrong_section,
 )
 from crumple.hinge.axial.hardened_peak import FLAT
 from crumple.hinge.axial.squash import HELD, squash_force
@@ -110,10 +110,7 @@ class SquareCrushing:
             not isinstance(section, RectangularTube)
             or abs(section.width - section.depth) > SAME_SIDE * section.width
         ):
-            todo = "use the law superfolding for a rectangle"
-            raise InputError(
-                Problem("this law is for square tubes", section.title, "equal sides", todo, "section")
-            )
+            raise wrong_section("this law is for square tubes", section, "rectangular_tube with equal sides")
         side, wall = section.width, section.thickness
         forces = mode_forces(side / wall)
         chosen = min(forces, key=lambda each: forces[each]) if wanted is Mode.LOWEST else wanted

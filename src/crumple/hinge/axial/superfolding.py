@@ -20,13 +20,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from crumple.errors import InputError, Problem
 from crumple.hinge.axial.axial_law import (
     CrushDistance,
     CrushRate,
     CrushValidity,
     crush_rate,
     flat_wall_moment,
+    wrong_section,
 )
 from crumple.hinge.axial.hardened_peak import FLAT
 from crumple.hinge.axial.squash import HELD, squash_force
@@ -106,8 +106,7 @@ class SuperfoldingCrushing:
         """
         distance = choice("crush_distance", crush_distance, CrushDistance)
         if not isinstance(section, RectangularTube):
-            what, todo = "this law is for rectangular tubes", "use circular or top_hat for such sections"
-            raise InputError(Problem(what, section.title, "rectangular_tube", todo, "section"))
+            raise wrong_section("this law is for rectangular tubes", section, "rectangular_tube")
         wall, side = section.thickness, (section.width + section.depth) / 2.0
         stroke = 1.0 if distance is CrushDistance.FULL else EFFECTIVE_STROKE
         third = (side / wall) ** (1.0 / 3.0)

@@ -18,12 +18,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from crumple.errors import InputError, Problem
 from crumple.hinge.axial.axial_law import (
     CrushRate,
     CrushValidity,
     crush_rate,
     flat_wall_moment,
+    wrong_section,
 )
 from crumple.hinge.axial.hardened_peak import FLAT, rise
 from crumple.hinge.law import Source, Trust
@@ -87,8 +87,7 @@ class HatCrushing:
             If the section is not a closed hat.
         """
         if not isinstance(section, ClosedHat):
-            what, todo = "this law is for closed hats", "use square, superfolding or circular"
-            raise InputError(Problem(what, section.title, "closed_hat", todo, "section"))
+            raise wrong_section("this law is for closed hats", section, "closed_hat")
         # the widest wall is about as wide as the whole hat
         strain = FLAT.strain(material, section.thickness / section.width)
         return cls.from_perimeter(

@@ -102,6 +102,8 @@ class HingeComponent:
         the end of the spread.
     origin
         Of the axial freedom: its law in words, with its source.
+    warnings
+        Of the axial freedom: conditions of its law that section, metal or length do not meet.
     """
 
     freedom: Freedom
@@ -110,6 +112,7 @@ class HingeComponent:
     worn: DrivenShare | None = None
     spread: Spread | None = None
     origin: str = ""
+    warnings: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
+import numpy as np
+
 from crumple.hinge import Freedom
 from crumple.multibody.answer.solved import HingeHistory
 from crumple.result import CrushSummary, HingeSummary, crush_summary
-from crumple.result.crush import BENT, MOVED, StretchSummary, stretch_summary
+from crumple.result.crush import BENT, MOVED, StretchSummary, slip_work, stretch_summary
 from crumple.structure import Structure
 from crumple.structure.hinges.automatic import lengthens
 
@@ -23,13 +25,13 @@ def crush_of(structure: Structure, history: HingeHistory) -> CrushSummary | None
         return None
     slip = spatial.components[spatial.freedoms.index(Freedom.AXIAL)]
     stop = slip.record.stop_negative
+    stroke = None if stop is None else stop.rotation
     found = crush_summary(
         history.values("slip.x.travel"),
         history.values("slip.x.force"),
         structure.frame_of(history.hinge.member).length,
-        None if stop is None else stop.rotation,
-        # what a zone that did not bend has absorbed is the work of crushing alone
-        history.energy if history.rotation_max <= BENT else None,
+        stroke,
+        _dissipated(history, stroke)[0],
     )
     unasked = lengthens(structure, history.hinge.member)
     return None if unasked and found.efficiency <= MOVED else replace(found, law=slip.origin)
@@ -40,7 +42,30 @@ def _stretch_of(structure: Structure, history: HingeHistory) -> StretchSummary |
     if spatial is None or Freedom.AXIAL not in spatial.freedoms:
         return None
     travel, force = (history.values(f"slip.x.{what}") for what in ("travel", "force"))
-    return stretch_summary(travel, force, structure.frame_of(history.hinge.member).length)
+    length = structure.frame_of(history.hinge.member).length
+    return stretch_summary(travel, force, length, _dissipated(history, None)[1])
+
+
+def _dissipated(history: HingeHistory, stroke: float | None) -> tuple[float, float]:
+    """Energy of the slip of a hinge in compression and in tension [J].
+
+    The sums over the outputs have shares of what the hinge absorbed at all steps: of all of it if it did not
+    bend, else of no more.  What a stop holds is no part of it.
+    """
+    travel, force, capacity = (
+        history.values(f"slip.x.{what}") for what in ("plastic_travel", "force", "capacity")
+    )
+    if stroke is not None:
+        force = np.where(travel < -stroke, np.clip(force, -capacity, capacity), force)
+    crushed, stretched = slip_work(travel, force)
+    whole = crushed + stretched
+    if whole <= 0.0:
+        # outputs this far apart do not see the slip
+        return (history.energy, 0.0) if history.rotation_max <= BENT else (0.0, 0.0)
+    share = history.energy / whole
+    if history.rotation_max > BENT:
+        share = min(share, 1.0)
+    return share * crushed, share * stretched
 
 
 def with_crush(

@@ -45,6 +45,8 @@ class Mobility:
         Connections with free freedoms of which none can move.
     redundant
         Constraints that others imply.
+    across
+        Those of them across the plane in which all loops move, three a loop; 0 if there is no such plane.
     loops
         Connections of the loops that hold redundant constraints.
     """
@@ -54,6 +56,7 @@ class Mobility:
     stuck: tuple[int, ...]
     redundant: int
     loops: tuple[int, ...]
+    across: int = 0
 
 
 class Columns:
@@ -146,7 +149,20 @@ def mobility(linkage: Linkage, *, locked: bool = False) -> Mobility:
     stuck = tuple(i for i, own in sorted(free.items()) if not moves[own].any())
     doubled = {i for rows, loop in blocks if redundant and null_space(rows)[1] for i in loop}
     number = width - len(coupled) + len(null)
-    return Mobility(number, tuple(sorted(bodies)), stuck, redundant, tuple(sorted(doubled)))
+    across = (
+        3 * len(blocks) if redundant and _planar(np.array([tree.columns[k] for k in coupled.tolist()])) else 0
+    )
+    return Mobility(number, tuple(sorted(bodies)), stuck, redundant, tuple(sorted(doubled)), across)
+
+
+def _planar(twists: Floats) -> bool:
+    """Whether twists, (n, 6), are rotations about one direction, and motions across it."""
+    if not len(twists):
+        return False
+    turns, moves = twists[:, :3], twists[:, 3:]
+    normal = np.linalg.svd(turns)[2][0]
+    in_plane = np.abs(turns - np.outer(turns @ normal, normal)).max() <= NOTHING
+    return bool(turns.any() and in_plane and np.abs(moves @ normal).max() <= NOTHING)
 
 
 def too_large(linkage: Linkage) -> bool:
@@ -188,22 +204,40 @@ def free_twists(linkage: Linkage, points: Floats, *, locked: bool = False) -> Fl
     return found
 
 
-def notes(linkage: Linkage) -> tuple[str, ...]:
-    """Sentences about parts that are not held, hinges that cannot rotate, and redundant constraints."""
+def notes(linkage: Linkage, released: Linkage | None = None) -> tuple[str, ...]:
+    """Sentences about parts that are not held, hinges that cannot rotate, and redundant constraints.
+
+    Parameters
+    ----------
+    linkage
+        Its driven freedoms count as held.
+    released
+        The same with all driven freedoms free, if there are any: what a drive moves is not stuck.
+    """
     if too_large(linkage):
         return ("The structure is too large to count what is free, locked or held twice.",)
     found = list(free_parts(linkage))
     free = mobility(linkage)
     names = [connection.name for connection in linkage.connections]
-    if free.stuck:
-        text = _named("Hinge or joint", "Hinges and joints", [names[i] for i in free.stuck])
+    stuck = free.stuck
+    if stuck and released is not None:
+        held = mobility(released).stuck
+        stuck = tuple(i for i in stuck if i in held)
+    if stuck:
+        text = _named("Hinge or joint", "Hinges and joints", [names[i] for i in stuck])
         found.append(f"{text} cannot move at the start: the closed loops around prevent it.")
-    if free.redundant:
+    # every loop that moves in a plane is held thrice across it, which says nothing of forces in the plane
+    redundant = free.redundant - free.across
+    if redundant:
+        elastic = {i for i in free.loops if (hinge := linkage.connections[i].hinge) and not hinge.plastic}
+        shown = [names[i] for i in free.loops if i not in elastic] or [names[i] for i in free.loops]
         # loops of supports alone have no connection with a name
-        through = f" (in the loops through {listed(names[i] for i in free.loops)})" if free.loops else ""
+        what = f"Closed loops through {listed(shown)} are" if shown else "Parts between supports are"
         found.append(
-            f"{free.redundant} of the constraints are redundant{through}: the motion is unique, the forces "
-            "across it are not, and one possible set is given."
+            f"{what} held more often than it takes "
+            f"({redundant} redundant constraint{'s' * (redundant > 1)}): motion and energies are unique, but "
+            "forces along which nothing gives way are not, and of these "
+            "one possible set is given."
         )
     return tuple(found)
 

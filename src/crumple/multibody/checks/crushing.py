@@ -13,12 +13,13 @@ with Euler's load of the member between pinned ends, pi^2 E I/L^2 with the small
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
 from crumple.errors import InputError
-from crumple.hinge import Freedom, axial_law_types, build_axial_law
+from crumple.hinge import AxialLaw, Freedom, axial_law_types, build_axial_law
+from crumple.hinge.axial.hardened_peak import necking_strain
 from crumple.multibody.answer.crush import crush_of
 from crumple.multibody.answer.forces import on_second
 from crumple.multibody.answer.poses import SpatialPoses
@@ -33,6 +34,8 @@ from crumple.structure import Structure
 from crumple.structure.checks.doubtful import double_members
 from crumple.structure.hinges.asked import automatic_of
 from crumple.structure.hinges.lengthening.pressed import presses_along
+from crumple.structure.hinges.lengthening.stopped import stopped
+from crumple.structure.hinges.runs.straight_runs import straight_run
 from crumple.units import format_quantity, plain_number
 
 ALONG = np.cos(np.radians(30.0))
@@ -40,6 +43,12 @@ ALONG = np.cos(np.radians(30.0))
 
 CLOSED = 1.02
 """Crushed length over the stroke above which a caution is given: stops yield a little."""
+CLOSEST = 0.86
+"""Shortening over length at which folds are closed where no law takes the section: the largest of any law,
+that of the thinnest round tubes."""
+ELONGATION = 0.2
+"""Lengthening over length at which metals without a hardening curve and a failure strain break: structural
+steels reach 0.20 to 0.26 between the marks of a bar in tension (EN 10025-2), most others less."""
 BEND = (
     "or 'members: elastic' in analysis.multibody, with which automatic hinges shorten where an impact "
     "presses along members, "
@@ -61,11 +70,12 @@ def crushing_cautions(structure: Structure, solved: Solved, *, struck: bool) -> 
     at_hinges = _pressed(structure, solved, shortening=False)
     for member, force in (*at_hinges, *(_blows(structure, solved) if struck else ())):
         found[member] = max(force, found.get(member, 0.0))
-    alike: dict[tuple[str, str], dict[str, float]] = {}
+    hinged = {history.hinge.member for history in solved.hinges}
+    alike: dict[tuple[str, str, bool], dict[str, float]] = {}
     for member, force in found.items():
         spec = structure.members[member]
-        alike.setdefault((spec.section, spec.material), {})[member] = force
-    for members in alike.values():
+        alike.setdefault((spec.section, spec.material, member in hinged), {})[member] = force
+    for (_, _, has_hinges), members in alike.items():
         law, peak = _folding(structure, next(iter(members)))
         beyond = {member: force for member, force in members.items() if force > peak}
         if not beyond:
@@ -76,15 +86,20 @@ def crushing_cautions(structure: Structure, solved: Solved, *, struck: bool) -> 
         text = (
             f"{named('Member', list(beyond))} {'carries' if one else 'carry'} up to "
             f"{plain_number(max(beyond.values()) / 1e3)} kN along {'its axis' if one else 'their axes'}, and "
-            f"{plain_number(peak / 1e3)} kN fold the walls ({what}), but nothing in {it} can shorten: axial "
-            f"folding is not modelled. Give {it} hinges with 'axial: {{law: {law or 'superfolding'}}}', "
+            f"{plain_number(peak / 1e3)} kN fold the walls ({what}), but "
+            f"{f'nothing in {it} can shorten' if has_hinges else _bare(len(beyond))}: axial folding is not "
+            f"modelled. Give {it} hinges with 'axial: {{law: {law or 'superfolding'}}}', "
             f"{'' if solved.bending_tried else _bending(structure, beyond)}or solve with shells."
         )
         for member, force in beyond.items():
             yield Caution("axial_compression", force, peak, "N", f"member {member}", text)
 
 
-def closed_together(structure: Structure, solved: Solved) -> Iterator[Caution]:
+def _bare(number: int) -> str:
+    return f"without hinges {'it is one rigid body' if number == 1 else 'each is one rigid body'}"
+
+
+def _closed_together(structure: Structure, solved: Solved) -> Iterator[Caution]:
     """Members whose hinges together are crushed by more than the stroke of their folds.
 
     Every hinge has the stroke of the whole member, since the folds begin where the peak is reached first.
@@ -106,6 +121,109 @@ def closed_together(structure: Structure, solved: Solved) -> Iterator[Caution]:
                 "large. Give it one hinge with 'axial', or solve with shells."
             )
             yield Caution("bottomed_out", float(short.max()), stroke, "m", f"member {member}", text)
+
+
+def lengths_beyond(structure: Structure, solved: Solved) -> Iterator[Caution]:
+    """Members that are shorter than closed folds, or longer than metal stretches.
+
+    Notes
+    -----
+    Hinges that yield along the member in place of folding have no stroke, and none has an end in tension.
+    The folds of a section are closed at the effective stroke of the first axial law that takes it, else at
+    `CLOSEST`.  Metal stretches evenly up to its neck (Considere's condition on its hardening curve) or its
+    failure strain; what comes later is in a length of about a side, which tears.
+    """
+    yield from _closed_together(structure, solved)
+    for members, slip in _changes_of_length(structure, solved).items():
+        if _unstopped(structure, solved, members):
+            yield from _shorter(structure, members, solved.time, slip)
+        yield from _longer(structure, members, solved.time, slip)
+
+
+def _shorter(structure: Structure, members: tuple[str, ...], time: Floats, slip: Floats) -> Iterator[Caution]:
+    """A caution if members are shorter than closed folds; `slip`: by how much they are longer [m], (n,)."""
+    length = sum(structure.frame_of(name).length for name in members)
+    law, share = _closing(structure, members[0])
+    when, most = first_above(time, -slip, CLOSED * share * length), -float(slip.min())
+    if when is None:
+        return
+    lengths = [format_quantity(one, "m", 3) for one in (most, length, abs(length - most), share * length)]
+    left = f"{lengths[2]} are left" if most < length else "its ends have passed each other"
+    given = f"'axial: {{law: {law}}}'" if law else "peak, mean and stroke under 'axial'"
+    text = (
+        f"{named('Member', list(members))}, {lengths[1]} long, {_is(members)} crushed by {lengths[0]} "
+        f"({left}): folds of the section are closed at {lengths[3]}{f' (law {law})' if law else ''}, reached "
+        f"at {format_quantity(when, 's', 3)}, but no stroke on the member ends that at its hinges. "
+        "From then on forces are too small and displacements too large. "
+        f"Give the hinges {given}, or solve with shells."
+    )
+    yield Caution("crushed_beyond", most, share * length, "m", f"member {members[0]}", text)
+
+
+def _longer(structure: Structure, members: tuple[str, ...], time: Floats, slip: Floats) -> Iterator[Caution]:
+    """A caution if members are longer than their metal stretches."""
+    length = sum(structure.frame_of(name).length for name in members)
+    strain, why = _stretchable(structure, members[0])
+    when, most = first_above(time, slip, strain * length), float(slip.max())
+    if when is None:
+        return
+    text = (
+        f"{named('Member', list(members))}, {format_quantity(length, 'm', 3)} long, {_is(members)} pulled "
+        f"longer by {format_quantity(most, 'm', 3)}, {most / length:.3g} of the length: {why} {strain:.3g}, "
+        f"reached at {format_quantity(when, 's', 3)}. A real member tears soon after, and what it carries "
+        "and absorbs from then on is too much. Solve with shells and a failure_strain, or hold it less "
+        "firmly."
+    )
+    yield Caution("stretched_beyond", most, strain * length, "m", f"member {members[0]}", text)
+
+
+def _is(members: Sequence[str]) -> str:
+    return "is" if len(members) == 1 else "are together"
+
+
+def _changes_of_length(structure: Structure, solved: Solved) -> dict[tuple[str, ...], Floats]:
+    """Members that change their length, and by how much [m], (n,); positive: longer.
+
+    The automatic hinges of members in line stand for all of them.  After a fracture nothing counts.
+    """
+    found: dict[tuple[str, ...], Floats] = {}
+    for history in solved.hinges:
+        spatial, member = history.hinge.spatial, history.hinge.member
+        if spatial is None or Freedom.AXIAL not in spatial.freedoms:
+            continue
+        slip = history.values("slip.x.travel")
+        if history.fracture is not None:
+            whole = max(int(np.searchsorted(solved.time, history.fracture[0])) - 1, 0)
+            slip = np.where(np.arange(len(slip)) > whole, slip[whole], slip)
+        asked = automatic_of(structure, member)
+        members = (member,) if asked is None else tuple(straight_run(structure, member).stretches)
+        found[members] = found.get(members, 0.0) + slip
+    return found
+
+
+def _unstopped(structure: Structure, solved: Solved, members: Iterable[str]) -> bool:
+    """Whether no hinge of these members has a stroke on them: of others there are cautions of their own."""
+    length = sum(structure.frame_of(name).length for name in members)
+    zones = (crush_of(structure, one) for one in solved.hinges if one.hinge.member in members)
+    return all(zone is None or zone.stroke is None or zone.stroke >= length for zone in zones)
+
+
+def _closing(structure: Structure, member: str) -> tuple[str, float]:
+    """Law of a member's section and its effective stroke over the length; without a law `CLOSEST`."""
+    name, law = _axial_law(structure, member)
+    return name, CLOSEST if law is None else law.effective_stroke
+
+
+def _stretchable(structure: Structure, member: str) -> tuple[float, str]:
+    """Lengthening over length that the metal of a member bears, and why."""
+    material = structure.material_of(member)
+    limits = []
+    if material.hardening is not None:
+        neck = math.expm1(necking_strain(material.hardening))
+        limits.append((neck, "its metal necks (by its hardening curve) at"))
+    if material.failure_strain is not None:
+        limits.append((math.expm1(material.failure_strain), "its failure strain is reached at"))
+    return min(limits, default=(ELONGATION, "structural metals break at about"))
 
 
 def buckling_cautions(structure: Structure, solved: Solved) -> Iterator[Caution]:
@@ -145,12 +263,15 @@ def _euler(structure: Structure, member: str) -> float:
 
 
 def _bending(structure: Structure, members: Iterable[str]) -> str:
-    """What else helps rigid members with automatic hinges, if an impact presses along members."""
-    able = (
-        automatic_of(structure, name) is not None and not structure.members[name].elastic for name in members
-    )
-    if not (presses_along(structure) and all(able)):
+    """What else helps rigid members with automatic hinges; those without any get them where members bend."""
+    if not (stopped(structure) or presses_along(structure)):
         return ""
+    for name in members:
+        spec = structure.members[name]
+        if spec.elastic or (automatic_of(structure, name) is None and spec.hinges is not None):
+            return ""
+        if spec.bars.number > 1:
+            return ""
     return BEND
 
 
@@ -193,7 +314,9 @@ def _blows(structure: Structure, solved: Solved) -> Iterator[tuple[str, float]]:
             wave = math.sqrt(material.youngs_modulus / material.density)
             blow = _strongest(solved.time, force, 2.0 * frame.length / wave)
             along = abs(float(blow @ frame.x))
-            if member not in shortening and along > ALONG * np.linalg.norm(blow):
+            # what the input calls rigid is to carry everything, in shells too
+            meant = structure.members[member].rigid is True
+            if member not in shortening and not meant and along > ALONG * np.linalg.norm(blow):
                 yield member, along
 
 
@@ -213,10 +336,19 @@ def _strongest(time: Floats, force: Floats, lasting: float) -> Floats:
 
 def _folding(structure: Structure, member: str) -> tuple[str, float]:
     """The axial law that applies to a member's section, and its peak [N]; without a name: the squash load."""
+    name, law = _axial_law(structure, member)
+    if law is not None:
+        return name, float(law.peak_force)
+    section, material = structure.section_of(member), structure.material_of(member)
+    return "", plastic_interaction(section, material).squash_force
+
+
+def _axial_law(structure: Structure, member: str) -> tuple[str, AxialLaw | None]:
+    """The first axial law that takes a member's section, with its name."""
     section, material = structure.section_of(member), structure.material_of(member)
     for name in axial_law_types():
         try:
-            return name, float(build_axial_law(name, section, material).peak_force)
+            return name, build_axial_law(name, section, material)
         except InputError:
             continue
-    return "", plastic_interaction(section, material).squash_force
+    return "", None

@@ -19,7 +19,7 @@ from crumple.multibody.answer.forces import on_second
 from crumple.multibody.answer.poses import SpatialPoses
 from crumple.multibody.answer.solved import CrushedContact, Solved
 from crumple.multibody.bodies.rigid import lump_mass, piece_mass
-from crumple.multibody.checks.crushing import buckling_cautions, closed_together, crushing_cautions
+from crumple.multibody.checks.crushing import buckling_cautions, crushing_cautions, lengths_beyond
 from crumple.multibody.checks.folded_over import folded_over
 from crumple.multibody.checks.names import named
 from crumple.multibody.checks.overloaded import folds_between, overloaded_sections
@@ -108,7 +108,7 @@ def physics_cautions(structure: Structure, solved: Solved, *, slow: Collection[s
         *impact_losses(structure, solved, total),
         *jammed_folds(solved),
         *closed_crush_zones(structure, solved),
-        *closed_together(structure, solved),
+        *lengths_beyond(structure, solved),
         *crushed_walls(structure, solved),
         *crumpled_ends(structure, solved),
         *deep_dents(solved),

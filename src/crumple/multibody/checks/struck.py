@@ -27,7 +27,7 @@ from crumple.structure import Structure, plastic_hinges
 from crumple.structure.hinges.asked import automatic_of, folds_at_ends
 from crumple.structure.hinges.runs.straight_runs import straight_run
 from crumple.structure.hinges.spatial_hinges import interaction_of
-from crumple.structure.hinges.struck_folds import left_by
+from crumple.structure.hinges.struck_folds import left_by, undented_tubes
 from crumple.structure.keys.motion import Support
 from crumple.structure.keys.obstacles import Obstacle, gap
 from crumple.structure.struck_places import struck_places
@@ -178,6 +178,28 @@ def _touched(structure: Structure, solved: Solved | None) -> set[str]:
         for name in structure.obstacles
         if any(force[f"obstacle.{name}.force.{axis}"].any() for axis in "xyz")
     }
+
+
+def struck_near_ends(structure: Structure, solved: Solved | None = None) -> Iterator[str]:
+    """A sentence for every tube that an obstacle strikes too near its end to dent it in the model.
+
+    Parameters
+    ----------
+    structure
+        Sound.
+    solved
+        Its result, if there is one: obstacles that touched nothing are left out.
+    """
+    touched = _touched(structure, solved)
+    for name in structure.obstacles:
+        found = undented_tubes(structure, name) if name in touched else []
+        for member, apart, node in found:
+            fold = max(half_fold_length(structure.section_of(member), axis) for axis in AXES)
+            yield (
+                f"Obstacle {name} strikes member {member} {apart * 1e3:.3g} mm from node {node}, where no "
+                f"fold fits beside that of the end (half length {fold * 1e3:.3g} mm): no dent is modelled "
+                "there, and the force may be too large. Solve with shells to see it."
+            )
 
 
 def undented(structure: Structure, solved: Solved) -> Iterator[str]:

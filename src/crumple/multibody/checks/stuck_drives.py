@@ -44,18 +44,10 @@ def stuck_drives(structure: Structure, linkage: Linkage) -> tuple[str, ...]:
     Each alone, all other drives released.  A drive that becomes impossible later, as a bar straightens, is
     not found.
     """
-    driven = {
-        i: [FREEDOMS.index(freedom) for freedom in structure.supports[c.name].driven]
-        for i, c in enumerate(linkage.connections)
-        if c.kind == "support" and structure.supports[c.name].driven
-    }
+    driven = _driven(structure, linkage)
     if not driven:
         return ()
-    connections = [
-        replace(c, free=tuple(sorted({*c.free, *driven.get(i, ())})))
-        for i, c in enumerate(linkage.connections)
-    ]
-    released = replace(linkage, connections=tuple(connections))
+    released = with_drives_released(structure, linkage)
     left = without(released, dead_centres(released).held)
     tree = tree_of(left)
     system = loop_system(left, tree)
@@ -70,6 +62,27 @@ def stuck_drives(structure: Structure, linkage: Linkage) -> tuple[str, ...]:
             if freedom not in c.free or not moves[first + c.free.index(freedom)]:
                 found.append(f"{c.name} {FREEDOMS[freedom]}")
     return tuple(found)
+
+
+def with_drives_released(structure: Structure, linkage: Linkage) -> Linkage:
+    """The same linkage in which all that supports drive is free: what drives move is not stuck."""
+    driven = _driven(structure, linkage)
+    if not driven:
+        return linkage
+    connections = [
+        replace(c, free=tuple(sorted({*c.free, *driven.get(i, ())})))
+        for i, c in enumerate(linkage.connections)
+    ]
+    return replace(linkage, connections=tuple(connections))
+
+
+def _driven(structure: Structure, linkage: Linkage) -> dict[int, list[int]]:
+    """Driven freedoms by the connection of their support."""
+    return {
+        i: [FREEDOMS.index(freedom) for freedom in structure.supports[c.name].driven]
+        for i, c in enumerate(linkage.connections)
+        if c.kind == "support" and structure.supports[c.name].driven
+    }
 
 
 def stuck_note(drives: tuple[str, ...]) -> str:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from crumple.hinge import Form, Freedom, SofteningVariable
+from crumple.multibody.answer.crush import crush_of
 from crumple.multibody.answer.solved import HingeHistory, Solved, Solver
 from crumple.multibody.bodies.crumpling_ends import crumpling_ends
 from crumple.multibody.bodies.linkage import link
@@ -18,7 +19,7 @@ from crumple.multibody.checks.held_parts import held_part_warnings
 from crumple.multibody.checks.names import named
 from crumple.multibody.checks.overlap import overlap_warnings
 from crumple.multibody.checks.physics import energy_put_in
-from crumple.multibody.checks.struck import undented
+from crumple.multibody.checks.struck import struck_near_ends, undented
 from crumple.multibody.checks.stuck_drives import loose_drives
 from crumple.multibody.run import Run
 from crumple.result import HingeSummary
@@ -184,7 +185,7 @@ def warnings(
         span = _span(list(by_name.values()), 3)
         found.append(f"{named('Hinge', list(by_name))}: {text.format(turned=span)}")
     found += broken_warnings(solved.hinges)
-    found += undented(structure, solved)
+    found += [*struck_near_ends(structure, solved), *undented(structure, solved)]
     found += overlap_warnings(structure)
     found += held_part_warnings(structure, solved)
     found += loose_drives(structure, link(structure))
@@ -250,8 +251,16 @@ def _of_hinge(structure: Structure, history: HingeHistory) -> Iterator[tuple[str
     hinge = history.hinge
     bent = history.bent_by_law()
     # what its law says of section and metal holds for a hinge at rest, too
-    for law in dict.fromkeys(law for _, law, _ in bent) or (hinge.law,):
-        yield from ((_literal(text), 0.0) for text in law.validity.warnings)
+    told = [
+        text
+        for law in dict.fromkeys(law for _, law, _ in bent) or (hinge.law,)
+        for text in law.validity.warnings
+    ]
+    yield from ((_literal(text), 0.0) for text in told)
+    # of slip that nobody asked for, and that did not happen, nothing is to be said
+    if hinge.spatial is not None and crush_of(structure, history) is not None:
+        along = [text for part in hinge.spatial.components for text in part.warnings if text not in told]
+        yield from ((f"crushing along the member: {_literal(text)}", 0.0) for text in along)
     for _, law, turned in bent:
         jammed = law.jamming_angle is not None and turned > law.jamming_angle
         # a closed fold has a caution of its own

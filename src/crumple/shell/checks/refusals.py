@@ -68,20 +68,22 @@ def refuse_waves(settings: ShellSettings, contours: dict[str, Contour], rings: d
         raise InputError(Problem(what, came, allowed, todo, "analysis.shell.imperfection"))
 
 
-def refuse_steps(settings: ShellSettings, stages: tuple[Stage, ...], first_step: float) -> None:
-    """Refuse bounds, scaling and damping that the first stable step [s] cannot meet.
+def refuse_steps(
+    settings: ShellSettings, stages: tuple[Stage, ...], first_step: float, slowest: str = ""
+) -> None:
+    """Refuse bounds, scaling and damping that the first stable step [s] cannot meet; `slowest` sets it.
 
     Raises
     ------
     InputError
         With every setting that does not fit.
     """
-    if problems := [*_step_problems(settings, stages, first_step)]:
+    if problems := [*_step_problems(settings, stages, first_step, slowest)]:
         raise InputError(problems)
 
 
 def _step_problems(
-    settings: ShellSettings, stages: tuple[Stage, ...], first_step: float
+    settings: ShellSettings, stages: tuple[Stage, ...], first_step: float, slowest: str
 ) -> Iterator[Problem]:
     shortest = min(stage.duration for stage in stages)
     if (settings.mass_scaling or 0.0) > shortest / FEWEST_STEPS:
@@ -91,6 +93,7 @@ def _step_problems(
         yield Problem(what, came, reason, todo, "analysis.shell.mass_scaling")
     if first_step < settings.minimum_time_step:
         what = "the first stable time step is below the minimum time step"
+        what += f" ({slowest})" if slowest else ""
         came, todo = f"{settings.minimum_time_step:g} s", "give a smaller minimum, or larger elements"
         allowed = f"below {first_step:.3g} s"
         yield Problem(what, came, allowed, todo, "analysis.shell.minimum_time_step")

@@ -37,6 +37,8 @@ class MeshReport:
         Of the walls [kg].
     time_step
         Stable step of the first shape, safety and mass scaling included [s]; 0 before it is known.
+    slowest
+        Place of the element that sets it; empty if added mass does, or it is not known.
     """
 
     elements: int
@@ -48,9 +50,11 @@ class MeshReport:
     mass: float
     triangles: int = 0
     time_step: float = 0.0
+    slowest: str = ""
 
     def __str__(self) -> str:
         step = f", time step {1e6 * self.time_step:.3g} us" if self.time_step else ""
+        step += f", the least that an element allows ({self.slowest})" if self.slowest else ""
         three = f" ({self.triangles} of them triangles)" if self.triangles else ""
         return (
             f"{self.elements} elements{three}, {self.nodes} nodes, sides {1e3 * self.smallest_side:.3g} to "

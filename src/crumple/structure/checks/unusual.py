@@ -14,7 +14,8 @@ Nothing is refused for them.  The ranges are wide, so that whoever is outside of
 - Mass of a lump or obstacle up to 100 000 t: a loaded ship.  Small ones do no harm.
 - Offset of a lump from its node up to 100 m: half of a ship.
 - Speed up to 500 m/s: above it shock waves in the metal matter, which neither solver has.  Of an initial
-  rotation the speed of the fastest node counts: the blades of a gas turbine have 400 m/s at their tips.
+  rotation the speed of the fastest node counts: the blades of a gas turbine have 400 m/s at their tips.  Of
+  a drive the steepest part of its curve counts.
 - Gravity up to 5000 m/s2: 500 g stand for a hard pulse; 9810 is the number in mm/s2.
 - Duration 10 microseconds to 1 h: waves cross a section in the former; creep, which no law has, begins to
   matter in the latter.
@@ -34,6 +35,8 @@ from crumple.structure.parts import StructureParts
 from crumple.text.names import listed
 from crumple.units import format_quantity
 
+LOOKS = 101
+"""Times of a run between which the speed of a drive is taken, besides the corners of its curve."""
 RATE = 100.0
 """Strain rate [1/s] at which rate laws are judged, that of folds in a crash."""
 
@@ -147,6 +150,23 @@ def _tip_speeds(structure: StructureParts, duration: float) -> Found:
             yield f"initial_velocity[{i}].rotation", fastest
 
 
+def _driven_speeds(structure: StructureParts, duration: float) -> Found:
+    """Largest slopes of driven displacements between some times of a run and the corners of their curves."""
+    driven = [
+        *((f"supports.{name}.motion", one.motion) for name, one in structure.supports.items()),
+        *((f"obstacles.{name}.motion", one.motion) for name, one in structure.obstacles.items()),
+    ]
+    for place, motion in driven:
+        for axis in ("x", "y", "z"):
+            function = getattr(motion, axis)
+            if function is None:
+                continue
+            times = np.linspace(0.0, duration, LOOKS)
+            times = np.unique(np.concatenate([times, function.kinks(0.0, duration)]))
+            slopes = np.diff(function(times)) / np.diff(times)
+            yield f"{place}.{axis}", float(np.abs(slopes).max(initial=0.0))
+
+
 def _moved(structure: StructureParts, field: InitialVelocity) -> set[str]:
     """Nodes that a field moves, and the far ends of members, which turn with a node that it names."""
     if field.everywhere:
@@ -175,6 +195,7 @@ USUAL = (
     Usual("the offset of a mass from its node", "m", 0.0, 100.0, _offsets),
     Usual("the speed of a crash", "m/s", 0.0, 500.0, _speeds),
     Usual("the speed of a crash", "m/s", 0.0, 500.0, _tip_speeds, " at the fastest node"),
+    Usual("the speed of a crash", "m/s", 0.0, 500.0, _driven_speeds, " where its curve is steepest"),
     Usual("gravity", "m/s^2", 0.0, 5e3, lambda s, _: iter([("gravity", math.hypot(*s.gravity))])),
     Usual("the duration of a crash", "s", 1e-5, 3600.0, lambda _, t: iter([("analysis.duration", t)])),
 )

@@ -104,7 +104,8 @@ def spatial_hinge_record(
     if keys.axial is not None:
         law_of_slip, slip = _axial(keys.axial, crush, first, metal, shares)
         alone = coupling.value in APART or slip.form is Form.REGULARISED
-        whole = HingeComponent(Freedom.AXIAL, slip, origin=law_of_slip.origin)
+        doubts = law_of_slip.validity.warnings
+        whole = HingeComponent(Freedom.AXIAL, slip, origin=law_of_slip.origin, warnings=doubts)
         components.append(whole if alone else _after_rise(law_of_slip, whole, first))
     if coupling is Coupling.SECTION and isinstance(section, CircularTube) and keys.axial is None:
         # its walls share every moment alike, so the ellipsoid is their interaction and needs no fit

@@ -19,6 +19,7 @@ from crumple.hinge.registry import AUTO
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import AXES, Axis, CircularTube, RectangularTube, half_fold_length
+from crumple.structure.hinges.asked import automatic_of
 from crumple.structure.hinges.automatic import strikes_on
 from crumple.structure.hinges.corner_laws import corner_laws
 from crumple.structure.hinges.corners import leaving
@@ -30,7 +31,7 @@ from crumple.structure.hinges.runs.straight_runs import StraightRun, straight_ru
 from crumple.structure.keys.law import LawKeys, LawReference
 from crumple.structure.keys.obstacles import CylinderObstacle, SphereObstacle
 from crumple.structure.parts import StructureParts
-from crumple.structure.struck_places import StruckPlace, struck_places, travel_to_joints
+from crumple.structure.struck_places import KINK, StruckPlace, struck_places, travel_to_joints
 
 TOGETHER = 1e-3
 """Difference of the travels of an obstacle to tubes that it strikes at the same time [m]."""
@@ -243,15 +244,41 @@ def _dented_tubes(structure: StructureParts, obstacle: str) -> tuple[DentedTube,
     spec = structure.obstacles[obstacle]
     if not spec.dents or not isinstance(spec, CylinderObstacle | SphereObstacle):
         return ()
-    struck = list(_struck_first(structure, obstacle))
-    tubes = [_dented(structure, member, place) for member, place in struck]
-    found = tuple(tube for tube in tubes if tube is not None)
+    tubes = [_dented(structure, member, place) for member, place in _struck_first(structure, obstacle)]
+    found = tuple(
+        tube for tube in tubes if tube is not None and _folds_there(structure, tube.member, obstacle)
+    )
     if not found or len(found) < len(tubes):
         return ()
     towards = np.sum([tube.outwards for tube in found], axis=0)
     size = float(np.linalg.norm(towards))
     alike = size > 0.0 and all(float(tube.outwards @ towards) >= SQUARE * size for tube in found)
     return found if alike else ()
+
+
+def undented_tubes(structure: StructureParts, obstacle: str) -> list[tuple[str, float, str]]:
+    """Tubes with automatic hinges that an obstacle strikes first, and would dent if they could fold there.
+
+    They cannot fold nearer to the end of a straight run than the fold at its end reaches.  Each with the
+    distance of the place from an end of its run [m], and the node there; not those struck at a node.
+
+    Parameters
+    ----------
+    structure, obstacle
+        The obstacle's name.
+    """
+    spec, found = structure.obstacles[obstacle], []
+    if not spec.dents or not isinstance(spec, CylinderObstacle | SphereObstacle):
+        return []
+    for member, place in _struck_first(structure, obstacle):
+        if automatic_of(structure, member) is None or _folds_there(structure, member, obstacle):
+            continue
+        run = straight_run(structure, member)
+        along = run.stretches[member].along(place.station)
+        apart, node = min((along, run.nodes[0]), (run.length - along, run.nodes[1]))
+        if apart > KINK and _dented(structure, member, place) is not None:
+            found.append((member, apart, node))
+    return found
 
 
 def _struck_first(structure: StructureParts, obstacle: str) -> Iterator[tuple[str, StruckPlace]]:
@@ -290,8 +317,6 @@ def _dented(structure: StructureParts, member: str, place: StruckPlace) -> Dente
         if isinstance(structure.obstacles[place.obstacle], SphereObstacle) or struck.max() < SQUARE:
             return None
         depth = float((section.width, section.depth)[int(np.argmax(np.abs(across)))])
-    if not _folds_there(structure, member, place.obstacle):
-        return None
     nodes = _nodes_in(structure, member, place.station)
     dent = dent_of(section, _metal(structure, member), depth)
     return DentedTube(place.obstacle, member, place.station, nodes, outwards, depth, dent)

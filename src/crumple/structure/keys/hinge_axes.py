@@ -14,6 +14,7 @@ from crumple.registry.refusal import refuse
 from crumple.structure.keys.law import LawReference
 from crumple.structure.schema.registered import Registered
 from crumple.structure.schema.spec import Spec
+from crumple.units import format_quantity
 
 BendingAxis = Literal["y", "z"]
 """Section axis that the moment vector of a hinge lies along."""
@@ -84,6 +85,13 @@ class AxialSlip(Spec):
             missing = next(name for name in forces if name not in given)
             refuse(
                 f"axial folding needs '{missing}'", allowed="peak, mean and stroke together", todo="add it"
+            )
+        if self.peak is not None and self.mean is not None and self.mean > self.peak:
+            refuse(
+                "the mean force is above the peak",
+                key="mean",
+                allowed=f"at most {format_quantity(self.peak, 'N')}",
+                todo="give a higher peak or a lower mean",
             )
         return self
 

@@ -31,8 +31,8 @@ def run(*members):
 
 def test_the_order_of_the_members_does_not_move_the_node():
     one, other = run(FIRST, SECOND), run(SECOND, FIRST)
-    # the corner shortens by far more than the results may differ; in the impact the rear hinge shares in it by
-    # the mass between them, which depends on the member whose end the hinge of the corner is
+    # the corner shortens by far more than the results may differ; in the impact the rear hinge shares in it
+    # by the mass between them, and the hinge of the corner is at the end of one of its members
     assert np.abs(one["hinge.corner-bend.slip.x.travel"]).max() > 3e-3
     names = [f"node.bend.{kind}.{axis}" for kind in ("displacement", "rotation") for axis in "xyz"]
     later = one.time > 5e-3

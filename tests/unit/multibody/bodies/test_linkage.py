@@ -51,16 +51,32 @@ def test_a_portal_moves_one_way_and_is_held_thrice_across():
     assert (free.motions, free.redundant, free.stuck) == (1, 3, ())
     assert mobility(linkage, locked=True).motions == 0
     assert free_parts(linkage) == ()
-    (note,) = notes(linkage)
-    assert note.startswith("3 of the constraints are redundant")
-    assert "foot, knee, other_knee, other_foot" in note
+    # across the plane nothing acts: nothing is to be said
+    assert free.across == 3
+    assert notes(linkage) == ()
+
+
+def test_a_loop_in_space_that_is_held_too_often_is_named():
+    """Its knee turns about the leg: six equations of which four are independent for four axes."""
+    members = {
+        "ab": bar("a", "b", ("foot", 0.1)),
+        "bc": bar("b", "c"),
+        "cd": bar("c", "d", ("other_knee", 0.1), ("other_foot", 0.9)),
+    }
+    knee = {"k": {"node": "b", "member": "ab", "type": "revolute", "axis": (0.0, 0.0, 1.0)}}
+    linkage = link(structure(SQUARE, members, supports=BOTH, joints=knee))
+    free = mobility(linkage)
+    assert (free.redundant, free.across) == (2, 0)
+    (note,) = (note for note in notes(linkage) if "redundant" in note)
+    assert note.startswith("Closed loops through foot, other_knee, other_foot, k are held more often")
+    assert "2 redundant constraints" in note
 
 
 def test_constraints_that_no_hinge_is_part_of_are_told_without_names():
     """Its driven corner closes loops of supports alone."""
     structure = load("examples/14_rops.yaml").structure
     (note,) = notes(link(structure))
-    assert note.startswith("3 of the constraints are redundant: the motion is unique")
+    assert note.startswith("Parts between supports are held more often than it takes (3 redundant constr")
 
 
 def test_pinned_feet_let_a_portal_swing_sideways():

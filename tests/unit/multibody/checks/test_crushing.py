@@ -120,6 +120,21 @@ def test_rigid_members_that_an_impact_would_stop_shorten():
     assert result["hinge.tube-head.slip.x.travel"].min() < -0.1
 
 
+@pytest.mark.parametrize("members", ["rigid", "auto"])
+def test_members_without_hinges_are_told_that_they_are_rigid_and_what_gives_them_hinges(members):
+    settings = f"multibody: {{members: {members}}}\n  shell:"
+    result = solve(loads(CRUSH.read_text("utf-8").replace("shell:", settings)))
+    (text,) = [text for text in result.warnings if "along its axis" in text]
+    assert "but without hinges it is one rigid body: axial folding is not modelled" in text
+    assert "or 'members: elastic' in analysis.multibody" in text
+
+
+def test_members_that_the_input_calls_rigid_carry_everything_without_a_word():
+    rigid = CRUSH.read_text("utf-8").replace("material: steel}", "material: steel, rigid: true}", 1)
+    result = solve(loads(rigid))
+    assert not [text for text in result.warnings if "along its axis" in text]
+
+
 @pytest.mark.parametrize(
     ("share", "kind", "members", "named"),
     [

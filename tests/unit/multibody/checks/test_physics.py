@@ -150,7 +150,7 @@ def test_a_crash_box_that_bottoms_out_is_a_caution():
     assert not fast.hinges["crush"].bends
     assert not any("rotations of" in text for text in fast.warnings)
     # the mean of the law until the folds are closed
-    assert crush.energy == fast.hinges["crush"].energy
+    assert crush.energy == pytest.approx(fast.hinges["crush"].energy, rel=1e-9)
     assert crush.mean_force == pytest.approx(crush.energy / crush.length)
     assert "bottomed_out" not in codes(solve(crash_box(4.0)))
 

@@ -8,7 +8,7 @@ import pytest
 from tests.support.multibody.frames import LAW, structure
 
 from crumple.analysis import loads, solve
-from crumple.multibody import Run, solve_multibody, struck_cautions
+from crumple.multibody import Run, solve_multibody, struck_cautions, struck_near_ends
 from crumple.multibody.checks.struck import pressed_beyond, swept_supports
 from crumple.result import Channel, StageSummary
 from crumple.structure import MultibodySettings
@@ -222,3 +222,26 @@ def test_a_driven_obstacle_that_passes_over_a_held_node_is_named_before_the_run(
     found = list(swept_supports(whole, 0.01))
     assert len(found) == bool(nodes)
     assert all(nodes in text and "which supports hold" in text for text in found)
+
+
+@pytest.mark.parametrize(
+    ("at", "keys", "place"),
+    [
+        (0.03, {}, "30 mm from node a"),
+        (0.98, {}, "20 mm from node b"),
+        (0.4, {}, ""),
+        # at the node, and where the input wants no dents
+        (0.0, {}, ""),
+        (0.03, {"dents": False}, ""),
+    ],
+)
+def test_a_pole_that_strikes_too_near_the_end_of_a_tube_to_dent_it_is_named(at, keys, place):
+    supports = {name: {"node": node, "fix": "all"} for name, node in (("left", "a"), ("right", "b"))}
+    pole = POLE | DOWN | {"point": (at, 0.0, 0.11)} | keys
+    members = {"beam": {"nodes": ("a", "b"), "section": "tube", "material": "steel"}}
+    whole = structure(members=members, supports=supports, obstacles={"pole": pole}, hinges="auto")
+    texts = list(struck_near_ends(whole))
+    assert len(texts) == bool(place)
+    assert all(f"strikes member beam {place}, where no fold fits" in text for text in texts)
+    run = solve_multibody(whole, Run(0.04, 1e-3))
+    assert [text for text in run.warnings if "no dent is modelled" in text] == texts

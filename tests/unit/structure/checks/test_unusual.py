@@ -52,6 +52,11 @@ CHANGES = {
         "translation: [0 m/s, 0 m/s, 5 m/s]",
         "rotation: 9000 rad/s, about: [0 m, 0 m, 0 m], axis: [0, -1, 0]",
     ),
+    "where its curve is steepest": (
+        "supports: {clamp",
+        "obstacles: {w: {type: plane, point: [5 m, 0 m, 0 m], normal: [-1, 0, 0], motion: {x: {table: "
+        "{time: [0 s, 1 us, 1 s], value: [0 m, -1 mm, -1 mm]}}}}}\nsupports: {clamp",
+    ),
     "gravity": ("-9.81 m/s^2", "-9810 m/s^2"),
     "duration": ("duration: 10 ms", "duration: 1e6 s"),
 }

@@ -164,8 +164,9 @@ class _Beside:
     def _beyond_a_fold(self, axis: Axis, along: float) -> bool:
         """Whether a place lies in a rigid joint, or between an end and a hinge less than one fold away.
 
-        Towards an end without a moment the moment falls, and walls yield less than at the hinge.  The hinge of a corner counts in both of its members.  Of a bar without hinges no place does: nothing
-        else stands for its folds.
+        Towards an end without a moment the moment falls, and walls yield less than at the hinge.  The hinge
+        of a corner counts in both of its members.  Of a bar without hinges no place does: nothing else stands
+        for its folds.
         """
         at_corners = self._folds_at_corners(axis)
         if not self.own and not at_corners:
