@@ -80,7 +80,7 @@ class ClampedTubeLaw(TubeLibraryLaw):
         Parameters
         ----------
         section
-            Rectangular tube with sharp corners, or circular tube.
+            Rectangular or circular tube.
         material
             Yield stress, Young's modulus, hardening curve (without one: flow stress) and flow rate.
         axis

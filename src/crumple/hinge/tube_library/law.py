@@ -20,7 +20,7 @@ from crumple.hinge.law import SofteningVariable, Source, Trust, Validity
 from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor, rate_warnings
 from crumple.hinge.stop import Stop
 from crumple.hinge.tube_library.table import TubeTable, tube_table
-from crumple.hinge.tube_library.tube import columns_of, place_of_tube
+from crumple.hinge.tube_library.tube import band_beyond, columns_of, place_of_tube
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, Section
@@ -71,7 +71,7 @@ class TubeLibraryLaw:
         Parameters
         ----------
         section
-            Rectangular tube with sharp corners, or circular tube.
+            Rectangular or circular tube.
         material
             Yield stress, Young's modulus, hardening curve (without one: flow stress) and flow rate.
         axis
@@ -93,11 +93,12 @@ class TubeLibraryLaw:
         share = table.moment(columns_of(table, place))
         end = float(table.rotation[-1])
         basis = f"interpolated between tubes solved with shells up to {math.degrees(end):.0f} deg"
+        band = table.band + band_beyond(table, section, place["yield_strain"])
         return cls(
             material.yield_stress * section.plastic_section_modulus(axis),
             tuple(table.rotation.tolist()),
             tuple(share.tolist()),
-            Validity(end, basis, tuple(rate_warnings(material)), table.band),
+            Validity(end, basis, tuple(rate_warnings(material)), band),
             hinge_rate(material.flow_rate),
         )
 

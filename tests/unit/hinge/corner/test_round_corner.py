@@ -9,7 +9,7 @@ import pytest
 
 from crumple.analysis import loads
 from crumple.errors import InputError
-from crumple.hinge import Trust, build_law
+from crumple.hinge import Coupling, Trust, build_law
 from crumple.material import Material
 from crumple.section import Channel, CircularTube
 from crumple.structure import plastic_hinges
@@ -164,9 +164,12 @@ def test_a_loaded_corner_keeps_the_law_of_the_member():
     assert hinge_at(frame(at="corner")) is None
 
 
-def test_no_shortening_of_a_round_corner_is_assumed():
+def test_a_pressed_round_corner_yields_as_its_members_do_and_not_about_a_tension_flange():
     wall = "obstacles: {wall: {type: plane, point: [0 m, 0 m, -1 m], normal: [0, 0, 1]}}"
-    assert hinge_at(frame(obstacles=wall)).spatial is None
+    assert hinge_at(frame()).spatial is None
+    surface = hinge_at(frame(obstacles=wall)).spatial.surface
+    assert surface.coupling is Coupling.SECTION
+    assert surface.arm == 0.0
 
 
 def test_nearly_in_line_it_bends_about_its_bisector_and_twists_about_its_tangent():

@@ -20,6 +20,7 @@ from crumple.section.shapes.written import written_section
 
 YIELD = Material("steel", 210e9, 0.3, 7850.0, 350e6)
 STEEL = replace(YIELD, hardening=Swift(350e6, 0.01, 0.15))
+SOFT = Material("soft steel", 210e9, 0.3, 7850.0, 190e6, hardening=Swift(190e6, 0.01, 0.15))
 TUBE, ROUND = RectangularTube(0.060, 0.045, 0.002), CircularTube(0.060, 0.002)
 THICK = RectangularTube(0.050, 0.050, 0.0035)
 DEEP = RectangularTube(0.040, 0.060, 0.002)
@@ -79,7 +80,10 @@ def test_the_curve_goes_before_a_flow_stress_that_is_given():
     ("section", "material", "fold", "law"),
     [
         (TUBE, STEEL, "clamped", "clamped_tube"),
-        (replace(TUBE, corner_radius=0.003), STEEL, "clamped", "hardening_tube"),
+        (replace(TUBE, corner_radius=0.004), STEEL, "clamped", "clamped_tube"),
+        (replace(TUBE, corner_radius=0.007), STEEL, "clamped", "hardening_tube"),
+        (TUBE, SOFT, "clamped", "clamped_tube"),
+        (TUBE, replace(SOFT, youngs_modulus=220e9), "clamped", "hardening_tube"),
         (TUBE, STEEL, None, "hardening_tube"),
         (TUBE, STEEL, "free", "library"),
         (THICK, STEEL, "free", "hardening_tube"),

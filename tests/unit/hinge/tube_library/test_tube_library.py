@@ -67,10 +67,11 @@ def test_the_strain_rate_acts_as_in_the_formulas():
     ("section", "material", "message"),
     [
         (written_section("channel 60x40x2 mm"), STEEL, "laws of tubes only"),
-        (replace(TUBE, corner_radius=0.004), STEEL, "sharp corners only"),
+        (replace(TUBE, corner_radius=0.007), STEEL, "narrow corners only"),
         (replace(TUBE, thickness=0.0005), STEEL, "larger side over thickness"),
         (replace(ROUND, thickness=0.008), STEEL, "larger side over thickness"),
         (replace(TUBE, depth=0.020), STEEL, "flange width over depth"),
+        (TUBE, replace(STEEL, yield_stress=180e6), "yield stress over Young's modulus"),
         (TUBE, replace(STEEL, yield_stress=1200e6), "yield stress over Young's modulus"),
         (TUBE, replace(STEEL, given_flow_stress=900e6), "stress at a plastic strain of 0.1"),
     ],
@@ -95,8 +96,23 @@ def test_the_fold_of_a_rectangular_tube_beside_a_clamp_takes_more_work_than_a_fr
     # of other sections none, like the library
     with pytest.raises(InputError, match="laws of tubes only"):
         build_law("clamped_tube", written_section("channel 60x40x2 mm"), STEEL, "z")
-    with pytest.raises(InputError, match="sharp corners only"):
-        build_law("clamped_tube", replace(TUBE, corner_radius=0.004), STEEL, "y")
+    with pytest.raises(InputError, match="narrow corners only"):
+        build_law("clamped_tube", replace(TUBE, corner_radius=0.007), STEEL, "y")
+
+
+@pytest.mark.parametrize("name", ["library", "clamped_tube"])
+def test_soft_metals_and_rounded_corners_have_the_law_of_the_nearest_tube_with_a_wider_band(name):
+    # 252 MPa is the lowest yield stress of the solved tubes, 189 MPa that up to which their law holds
+    lowest, soft = (replace(STEEL, yield_stress=stress) for stress in (252e6, 210e6))
+    known, found = build_law(name, TUBE, lowest, "y"), build_law(name, TUBE, soft, "y")
+    assert found.share == known.share
+    assert found.plastic_moment == pytest.approx(210.0 / 252.0 * known.plastic_moment)
+    more = 0.08 * np.log(252.0 / 210.0) / np.log(252.0 / 189.0)
+    assert found.validity.uncertainty == pytest.approx(known.validity.uncertainty + more)
+    narrow = build_law(name, replace(TUBE, corner_radius=0.006), lowest, "y")
+    assert narrow.share == known.share
+    assert narrow.plastic_moment < 0.97 * known.plastic_moment
+    assert narrow.validity.uncertainty == pytest.approx(known.validity.uncertainty + 0.11)
 
 
 def test_every_coordinate_that_is_out_of_range_is_named():
