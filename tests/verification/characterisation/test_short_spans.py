@@ -5,7 +5,8 @@ middle: their folds at both ends have a span of half their length, 3 to 4 larger
 law was solved with cantilevers of 6 and 8.  Solved once with shells by this program (slow, 5 elements along
 half a fold), listed before any was solved.  Expected: work up to rotations of the chord of 4, 10 and 18
 degrees.  Tolerance: 12 %, of round tubes 6 % (found: 10 and 5 % at the largest; with hinges at 0.7 of half a
-fold and one law for all spans 16 and 10 %).
+fold and one law for all spans 16 and 10 %).  The last four, of soft metals, were listed and solved later: within 5 %,
+and 18 % too low to 13 % too high with the formula that hardens (`hardening_tube`).
 
 Places of folds and moments of short cantilevers: held-out tubes of the tables, solved by
 `python -m tools.law_clamped solve`.
@@ -58,6 +59,20 @@ TUBES = {
     "50x50x1.5": ((BOX.format(50, 50, 1.5), 350, SWIFT.format(0.006, 0.14), 350.0), (272.6, 588.1, 899.2)),
     "40x60x2": ((BOX.format(40, 60, 2), 320, SWIFT.format(0.01, 0.15), 360.0), (424.6, 1112.2, 1852.2)),
     "60x60x2.5": ((BOX.format(60, 60, 2.5), 355, SWIFT.format(0.01, 0.16), 360.0), (753.2, 1940.6, 3287.1)),
+    # below the yield strain of the tubes of the library; S235
+    "50x50x2": ((BOX.format(50, 50, 2), 235, SWIFT.format(0.01245, 0.2208), 380.0), (287.7, 715.9, 1176.5)),
+    "40x60x2, soft": (
+        (BOX.format(40, 60, 2), 235, SWIFT.format(0.01245, 0.2208), 360.0),
+        (332.4, 871.2, 1427.0),
+    ),
+    "round 42.4x2.6": (
+        (ROUND.format(42.4, 2.6), 235, SWIFT.format(0.01245, 0.2208), 340.0),
+        (169.8, 483.8, 934.4),
+    ),
+    "60x40x1.5": (
+        (BOX.format(60, 40, 1.5), 190, "{type: voce, saturation: 120 MPa, strain: 0.1}", 360.0),
+        (119.2, 258.8, 398.0),
+    ),
 }
 CHORDS = np.radians([4.0, 10.0, 18.0])
 
