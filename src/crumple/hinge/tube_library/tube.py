@@ -1,9 +1,9 @@
 """A tube in the coordinates of the library: ratios that do not depend on its size.
 
-A tube at rest has M/M_p(theta) of two ratios of its lengths, the yield strain s_y/E and
-the shape of its hardening curve, of which one number is kept: the stress at a plastic strain of 0.1 over the
-yield stress.  Poisson's ratio is that of the solved points, 0.3, and their corners are sharp.  Bent about the other axis it is the tube
-with width and depth exchanged.
+A tube at rest has M/M_p(theta) of two ratios of its lengths, the yield strain s_y/E and the shape of its
+hardening curve, of which one number is kept: the stress at a plastic strain of 0.1 over the yield stress.
+Poisson's ratio is that of the solved points, 0.3, and their corners are sharp.  Bent about the other axis it
+is the tube with width and depth exchanged.
 
 A yield strain below that of the solved tubes counts as theirs, down to `SOFTEST`: walls that are further from
 buckling before they yield change the moments little, by `SOFTER` of them at most.  Rounded corners count in
