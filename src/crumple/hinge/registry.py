@@ -78,6 +78,7 @@ BENDING: Registry[LawType] = Registry(
         "library": "crumple.hinge.tube_library.law:TubeLibraryLaw",
         "clamped_tube": "crumple.hinge.tube_library.clamped:ClampedTubeLaw",
         "hardening_tube": "crumple.hinge.tube_library.hardening_tube:HardeningTubeLaw",
+        "hardening_section": "crumple.hinge.tube_library.hardening_section:HardeningSectionLaw",
         "estimate": "crumple.hinge.bending.estimate:EstimatedLaw",
         "auto": "crumple.hinge.bending.estimate:AutoLaw",
     },
@@ -103,6 +104,8 @@ DEEP = 0.9
 """Flange width over depth up to which it does so at rectangular tubes beside a clamp that do not harden."""
 HARDENING_BENDING = {"rectangular_tube": "hardening_tube", "circular_tube": "hardening_tube"}
 """Law that goes before the formula if the metal has a hardening curve."""
+HARDENING_SECTION = "hardening_section"
+"""That of other sections."""
 AXIAL: Registry[AxialLawType] = Registry(
     "axial law",
     {

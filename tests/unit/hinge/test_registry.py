@@ -18,6 +18,7 @@ def test_laws_are_found_by_the_files_of_their_folder():
         "estimate",
         "file",
         "folded_profile",
+        "hardening_section",
         "hardening_tube",
         "kecman",
         "library",

@@ -5,13 +5,17 @@
 with M_p the plastic moment of the section, and M_K the Kecman-type law of the rectangular tube that has the
 outer width, the outer depth and the thickness of the section.  The scaling is ours; no source supports it.
 Walls that buckle before they yield, and folds of open profiles, may carry far less.  If no such tube exists,
-the plastic moment is held.
+the plastic moment is held; so it is by a closed hat that is bent sideways, whose edge in compression are two
+sheets, if they are stocky (EN 1993-1-1, table 5.2, class 2): with the thickness 2t and the outstand c
+
+    c <= 10 (2t) sqrt(235 MPa/s_y)
 
 `AutoLaw` is the law of a section: the formula of its shape, else this estimate.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
@@ -28,6 +32,7 @@ from crumple.hinge.registry import (
     DEFAULT_BENDING,
     FOLD_BENDING,
     HARDENING_BENDING,
+    HARDENING_SECTION,
     Fold,
     build_law,
 )
@@ -36,12 +41,20 @@ from crumple.hinge.tube_library.hardening import hardens
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, RectangularTube, Section
+from crumple.section.shapes.closed_hat import ClosedHat
 
 SOURCE = Source(
     "plastic moment of the section, softening of a rectangular tube of the same outer size",
     Trust.ESTIMATED,
     "not checked for this section; a law from shells (crumple characterise) replaces it",
 )
+
+
+OUTSTAND = 10.0
+"""Outstand over its thickness up to which a section reaches its plastic moment, at a yield strain of
+`YIELD_STRAIN`: class 2 of EN 1993-1-1, table 5.2."""
+YIELD_STRAIN = 235e6 / 210e9
+"""Yield strain for which that table is written."""
 
 
 @dataclass(frozen=True)
@@ -90,9 +103,14 @@ class EstimatedLaw:
             Axis of bending.
         """
         plastic = material.yield_stress * section.plastic_section_modulus(axis)
-        tube = _tube_around(section, material, axis)
-        what = "the softening is that of the rectangular tube around the section"
-        basis = what if tube is not None else "no rectangular tube lies around the section: no softening"
+        stocky = axis == "z" and isinstance(section, ClosedHat) and _has_stocky_edges(section, material)
+        tube = None if stocky else _tube_around(section, material, axis)
+        if stocky:
+            basis = "the two sheets of each flange do not buckle: no softening"
+        elif tube is None:
+            basis = "no rectangular tube lies around the section: no softening"
+        else:
+            basis = "the softening is that of the rectangular tube around the section"
         rate = hinge_rate(material.flow_rate)
         return cls(plastic, tube, rate, Validity(0.0, f"an estimate; {basis}"))
 
@@ -160,6 +178,8 @@ def automatic_type(
     own = _laws_of_fold(section, material, axis, fold)
     # beyond the library a flow stress counts as it does within it
     harder = HARDENING_BENDING if hardens(material) or section.kind in own else {}
+    if hardens(material) and section.kind not in HARDENING_BENDING:
+        return HARDENING_SECTION
     for laws in (own, harder, DEFAULT_BENDING):
         name = laws.get(section.kind)
         if name is None:
@@ -183,6 +203,12 @@ def _laws_of_fold(section: Section, material: Material, axis: Axis, fold: Fold |
 def _is_wide(section: Section, axis: Axis) -> bool:
     flange, depth = section.flange_width(axis), section.bending_depth(axis)
     return isinstance(section, RectangularTube) and flange > DEEP * depth
+
+
+def _has_stocky_edges(section: ClosedHat, material: Material) -> bool:
+    together = section.thickness + (section.plate_thickness or section.thickness)
+    strain = math.sqrt(YIELD_STRAIN * material.youngs_modulus / material.yield_stress)
+    return section.flange <= OUTSTAND * strain * together
 
 
 def _tube_around(section: Section, material: Material, axis: Axis) -> KecmanLaw | None:

@@ -93,7 +93,8 @@ def test_the_curve_goes_before_a_flow_stress_that_is_given():
         (replace(DEEP, width=0.92 * DEEP.depth), YIELD, "clamped", "kecman"),
         (ROUND, STEEL, "clamped", "clamped_tube"),
         (ROUND, STEEL, None, "hardening_tube"),
-        (written_section("channel 60x40x2 mm"), STEEL, None, "folded_profile"),
+        (written_section("channel 60x40x2 mm"), YIELD, None, "folded_profile"),
+        (written_section("channel 60x40x2 mm"), STEEL, None, "hardening_section"),
     ],
 )
 def test_automatic_choice(section, material, fold, law):
