@@ -41,11 +41,6 @@ class HardeningSectionLaw(HardeningTubeLaw):
     name: ClassVar[str] = "hardening_section"
     source: ClassVar[Source] = SOURCE
 
-    @property
-    def symmetric(self) -> bool:
-        """Whether both senses have one curve."""
-        return self.formula.symmetric
-
     @classmethod
     def of(cls, section: Section, material: Material, axis: Axis = "y") -> Self:
         """Law of a section.

@@ -38,7 +38,7 @@ SOURCE = Source(
 
 @dataclass(frozen=True)
 class HardeningTubeLaw:
-    """Law of a rectangular or circular tube whose metal has a hardening curve; the same in both senses.
+    """Law of a rectangular or circular tube whose metal has a hardening curve.
 
     Attributes
     ----------
@@ -58,7 +58,6 @@ class HardeningTubeLaw:
     source: ClassVar[Source] = SOURCE
     softening_variable: ClassVar[SofteningVariable] = SofteningVariable.PEAK
     elastic_stiffness: ClassVar[float | None] = None
-    symmetric: ClassVar[bool] = True
 
     formula: HingeLaw
     effect: HardeningEffect
@@ -102,6 +101,11 @@ class HardeningTubeLaw:
     def title(self) -> str:
         """One line for people."""
         return f"{self.formula.title}, hardening up to {max(self.effect.factor):.3g} times"
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether both senses have one curve."""
+        return self.formula.symmetric
 
     @property
     def rate(self) -> HingeRate | None:
