@@ -172,7 +172,7 @@ def check(path: str | Path, fidelity: str = "multibody") -> list[Problem]:
 def _where_written(problem: Problem, structure: Structure) -> Problem:
     """Problem of a hinge, which a solver knows by name, with the path of the hinge in the input."""
     kind, _, name = problem.where.partition(".")
-    if kind != "hinges":
+    if kind != "hinges" or not name:
         return problem
     written = {place.name: place.where for place in hinge_places(structure)}
     return replace(problem, where=written.get(name, "members"))

@@ -48,6 +48,7 @@ def _check_input(file: Path, fidelity: Fidelity) -> None:
     from crumple.analysis import load_input
     from crumple.errors import InputError
     from crumple.structure.checks.doubtful import input_doubts
+    from crumple.structure.checks.section_axes import turned_posts
 
     source = load_input(file)
     # a problem that every solver reports is listed once
@@ -58,6 +59,9 @@ def _check_input(file: Path, fidelity: Fidelity) -> None:
     doubts = input_doubts(source.analysis.structure, source.analysis.duration, source.analysis.stages)
     for text in dict.fromkeys(one.text for one in doubts):
         typer.echo(f"  Caution: {text}")
+    turned = turned_posts(source.analysis.structure)
+    if turned:
+        typer.echo(f"  {turned}")
     for solver in fidelity.solvers:
         notes = (_shell_notes if solver is Fidelity.SHELL else _multibody_notes)(source.analysis)
         for note in notes:

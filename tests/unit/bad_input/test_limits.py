@@ -140,6 +140,6 @@ def test_walls_too_thin_for_the_formula_are_refused_with_their_member(tmp_path, 
     text = chain(1, "hinges: [{name: root, at: n0}]").replace("thickness: 2 mm", f"thickness: {thickness} mm")
     (tmp_path / "thin.yaml").write_text(text, encoding="utf-8")
     problem = check(tmp_path / "thin.yaml")[0]
-    assert problem.where == "members.m0"
+    assert problem.where == "members.m0.hinges[0]"
     assert "changes too steeply for a table" in problem.what
     assert "thicker walls" in problem.todo

@@ -2,6 +2,7 @@
 
 import json
 import math
+import time
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -131,3 +132,17 @@ def test_a_run_that_takes_long_says_what_it_goes_without(tmp_path, monkeypatch, 
     assert said is None or said in found.output
     summary = json.loads((tmp_path / "a" / "summary.json").read_text(encoding="utf-8"))
     assert (summary["law_range"], summary["modes"]) == (None, None)
+
+
+@pytest.mark.parametrize("spent", [0.0, 100.0])
+def test_whether_a_run_takes_long_is_decided_by_its_processor_time(tmp_path, monkeypatch, spent):
+    """On a busy machine the wall time is longer than the limit although the run takes milliseconds."""
+    clock = iter((0.0, spent))
+    own = SimpleNamespace(process_time=lambda: next(clock), perf_counter=time.perf_counter)
+    monkeypatch.setattr(run_command, "time", own)
+    found = run("run", FRAME, "--out", tmp_path / "a", "--no-modes")
+    assert found.exit_code == 0, found.output
+    said = "since the run took 100 s of processor time (5 s at most): --law-range"
+    assert (said in " ".join(found.output.split())) == (spent > 5.0)
+    summary = json.loads((tmp_path / "a" / "summary.json").read_text(encoding="utf-8"))
+    assert (summary["law_range"] is None) == (spent > 5.0)

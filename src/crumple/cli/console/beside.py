@@ -23,7 +23,8 @@ Moded = Annotated[
     typer.Option(
         "--modes/--no-modes",
         help="Of an impact, solve also with changed capacities, friction, contact points and stiffness, and "
-        "report the modes of collapse that appear; by default if the run took less than 5 s.",
+        "report the modes of collapse that appear; by default if the run took less than 5 s of processor "
+        "time.",
         show_default=False,
     ),
 ]

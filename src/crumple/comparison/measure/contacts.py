@@ -137,13 +137,16 @@ def _struck_faces(
 
 
 def _joint_ends(structure: Structure) -> dict[str, list[tuple[str, float]]]:
-    """Members that meet at each rigid joint, and its reach along them [m]."""
-    found: dict[str, list[tuple[str, float]]] = {}
-    for member, spec in structure.members.items():
-        for node in spec.nodes:
-            reach = joint_reach(structure, member, node)
-            if reach > 0.0:
-                found.setdefault(node, []).append((member, reach))
+    """Members that meet at each rigid joint, and its reach along them [m].
+
+    A joint may reach along one of its members alone: at an obtuse bend of unequal sections the walls of the
+    deeper one end at the node.  Its walls bound the joint all the same.
+    """
+    found = {}
+    for node, members in structure.members_at.items():
+        reaches = [joint_reach(structure, member, node) for member in members]
+        if max(reaches) > 0.0:
+            found[node] = list(zip(members, reaches, strict=True))
     return found
 
 

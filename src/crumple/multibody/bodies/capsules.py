@@ -122,7 +122,7 @@ def end_corners(
         if len(members) > 1 and structure.joints_at.get(node):
             continue
         if len(members) > 2 and any(
-            len(_outermost(structure.section_of(m).outer_outline())) > 4 for m in members
+            len(outermost(structure.section_of(m).outer_outline())) > 4 for m in members
         ):
             continue
         axes = [leaving(structure, name, node) for name in members]
@@ -203,10 +203,10 @@ def _standing_out(structure: Structure, members: Sequence[str], points: Floats) 
 
 def _face_corners(outline: Floats, inset: float) -> Floats:
     """Points of an outline that are outermost in `DIRECTIONS`, moved in, (points, 2) [m]."""
-    return _moved_in(outline[_outermost(outline)], outline, inset)
+    return _moved_in(outline[outermost(outline)], outline, inset)
 
 
-def _outermost(outline: Floats) -> Integers:
+def outermost(outline: Floats) -> Integers:
     """Which points of an outline are outermost in `DIRECTIONS`: the corners of a rectangle."""
     turns = 2.0 * np.pi * (np.arange(DIRECTIONS) + 0.5) / DIRECTIONS
     outwards = np.stack([np.cos(turns), np.sin(turns)], axis=1)

@@ -14,10 +14,12 @@ from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.multibody.bodies.rigid import RigidMass, lump_mass, piece_mass
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import turned
-from crumple.structure import InitialVelocity, NodalImpulse, Structure
+from crumple.structure import InitialVelocity, NodalImpulse, Structure, member_hinge_places
 from crumple.structure.geometry import cross
 from crumple.structure.initial_fields import fields_of_mass, fields_of_member
 
+ALONG = 0.05
+"""Share of the largest given speed from which the ends of a member part along it."""
 FASTEST = 1e5
 """Speed [m/s] up to which an impulse may accelerate a part before joints slow it down."""
 
@@ -120,6 +122,32 @@ def spatial_initial_motion(
     masses = np.array([body.mass for body in linkage.bodies])
     refuse_speeding(velocity[:, 3:], impulse[:, 3:], masses)
     return InitialMotion(velocity, impulse, energy)
+
+
+def stretched(structure: Structure, fields: Sequence[InitialVelocity]) -> dict[str, float]:
+    """Members that keep their length although the given motion changes it, and its rates [m/s].
+
+    Only between ends whose velocities are given: of masses, and of supports that hold all translations.
+    """
+    moved = {
+        node: motion_of(fields_of_mass(structure, fields, node), np.asarray(place, float))[0]
+        for node, place in structure.nodes.items()
+        if structure.masses_at.get(node)
+    }
+    for support in structure.supports.values():
+        if {"x", "y", "z"} <= set(support.held):
+            moved[support.node] = np.zeros(3)
+    fastest = max((float(np.linalg.norm(velocity)) for velocity in moved.values()), default=0.0)
+    found = {}
+    for name, spec in structure.members.items():
+        first, second = (moved.get(node) for node in spec.nodes)
+        lengthens = any(place.keys.axial is not None for place in member_hinge_places(structure, name))
+        if first is None or second is None or lengthens:
+            continue
+        rate = float((second - first) @ structure.frame_of(name).x)
+        if abs(rate) > ALONG * fastest:
+            found[name] = rate
+    return found
 
 
 def refuse_speeding(velocity: Floats, impulse: Floats, mass: Floats) -> None:

@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from crumple._core.spatial.model import SpatialCapsule
-from crumple.multibody.bodies.capsules import end_body, end_corners, member_capsules, pieces_by_length
+from crumple.multibody.bodies.capsules import (
+    end_body,
+    end_corners,
+    member_capsules,
+    pieces_by_length,
+    with_folds,
+)
 from crumple.multibody.bodies.crumpling_ends import CrumplingEnd, crumpling_ends
+from crumple.multibody.bodies.edges import Edge, edges_of
 from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.multibody.bodies.obstacles.sunk_walls import SunkWall
 from crumple.structure import DentedTube, Obstacle, PlaneObstacle, Structure, gap
@@ -24,6 +31,8 @@ class Surface:
         Capsules of members, and the member of each.
     shortened
         Capsules that replace one of these, an index, for the plane on which an end crumples.
+    edges
+        Of rolled members.
     corners
         As `end_corners`.
     faces
@@ -36,6 +45,7 @@ class Surface:
     whole: list[SpatialCapsule]
     member: list[str]
     shortened: list[tuple[CrumplingEnd, int, SpatialCapsule | None]]
+    edges: list[Edge]
     corners: list[tuple[SpatialCapsule, set[str], str | None]]
     faces: list[tuple[CrumplingEnd, SpatialCapsule]]
     walls: list[tuple[SunkWall, set[int], list[SpatialCapsule]]]
@@ -45,13 +55,15 @@ class Surface:
         """All of them."""
         rest = [capsule for *_, capsule in self.shortened if capsule is not None]
         rest += [capsule for *_, of in self.walls for capsule in of]
+        rest += [edge.capsule for edge in self.edges]
         return (*self.whole, *rest, *(ball for ball, *_ in self.corners), *(ball for _, ball in self.faces))
 
     @property
     def members(self) -> tuple[str, ...]:
         """Member of every capsule before the corners."""
-        shortened = (end.member for end, _, rest in self.shortened if rest is not None)
-        return (*self.member, *shortened, *(wall.tube.member for wall, _, of in self.walls for _ in of))
+        further = [end.member for end, _, rest in self.shortened if rest is not None]
+        further += [wall.tube.member for wall, _, of in self.walls for _ in of]
+        return (*self.member, *further, *(edge.member for edge in self.edges))
 
     @property
     def points(self) -> dict[int, CrumplingEnd]:
@@ -69,6 +81,11 @@ class Surface:
         ]
         found += [_of(end, name) for end, _, rest in self.shortened if rest is not None]
         found += [_of(wall.tube, name) for wall, _, of in self.walls for _ in of]
+        crumpling = {end.member for end, _ in self.faces if end.obstacle == name}
+        found += [
+            {edge.member} if name in edge.obstacles and edge.member not in crumpling else set()
+            for edge in self.edges
+        ]
         if isinstance(obstacle, PlaneObstacle):
             # what starts inside is met with the round ends of capsules, which are less far out
             found += [
@@ -100,12 +117,17 @@ def surface_of(
 ) -> Surface:
     """What obstacles can touch; `moving` and `member` are the capsules of all pieces that move."""
     capsules, owners = list(moving), list(member)
+    edges = list(edges_of(structure, linkage.pieces))
     corners = list(end_corners(structure, linkage.pieces))
     if any(obstacle.mass is not None for obstacle in structure.obstacles.values()):
         # other obstacles are held or driven themselves
-        held, owner = member_capsules(structure, pieces_by_length(linkage, fixed=True), held=True)
+        fixed = pieces_by_length(linkage, fixed=True)
+        held, owner = member_capsules(structure, fixed, held=True)
+        edges += edges_of(structure, fixed, held=True)
         capsules, owners = capsules + held, owners + owner
         corners += end_corners(structure, linkage.pieces, held=True)
+    of = with_folds(structure, linkage, [edge.capsule for edge in edges], [edge.member for edge in edges])
+    edges = [replace(edge, capsule=capsule) for edge, capsule in zip(edges, of, strict=True)]
     ends = [
         (end, body)
         for end in crumpling_ends(structure)
@@ -119,7 +141,7 @@ def surface_of(
     ]
     faces = [(end, ball) for end, body in ends for ball in end.face(structure, body)]
     sunk = [(wall, *_beside(structure, wall, capsules, owners)) for wall in walls]
-    return Surface(capsules, owners, shortened, corners, faces, sunk)
+    return Surface(capsules, owners, shortened, edges, corners, faces, sunk)
 
 
 def _beside(

@@ -11,6 +11,7 @@ from crumple.hinge import Form, Freedom, SofteningVariable
 from crumple.multibody.answer.crush import crush_of
 from crumple.multibody.answer.solved import HingeHistory, Solved, Solver
 from crumple.multibody.bodies.crumpling_ends import crumpling_ends
+from crumple.multibody.bodies.initial_motion import stretched
 from crumple.multibody.bodies.linkage import link
 from crumple.multibody.bodies.mobility import free_parts
 from crumple.multibody.checks.broken import broken_warnings
@@ -203,7 +204,7 @@ def warnings(
         found.append(
             f"{vanished:.4g} J of the given {max(solved.given, kinetic + solved.lost):.4g} J is lost "
             "at the start: the given motion does not fit the supports and hinges."
-            + (LOCKED if vanished > MOST * max(solved.given, kinetic) else "")
+            + _why_lost(structure, vanished > MOST * max(solved.given, kinetic))
         )
     stored = energy_left_out(structure, solved.hinges)
     total = energy_put_in(solved)
@@ -218,6 +219,20 @@ def warnings(
         steps = "One step was" if solved.forced == 1 else f"{solved.forced} steps were"
         found.append(f"{steps} taken at the smallest step without meeting the accuracy.")
     return tuple(found)
+
+
+def _why_lost(structure: Structure, mostly: bool) -> str:
+    """What of a motion does not fit, where that is known: members that keep their length."""
+    rates = stretched(structure, structure.initial_velocity)
+    if not rates:
+        return LOCKED if mostly else ""
+    most = format_quantity(max(abs(rate) for rate in rates.values()), "m/s", 3)
+    keep, their = ("keeps", "its ends") if len(rates) == 1 else ("keep", "their ends")
+    return (
+        f" {named('Member', list(rates))} {keep} the length, elastic or not, and the motion moves {their} "
+        f"relative to each other by up to {most} along the axis: give the hinges 'axial: true', or solve "
+        "with shells."
+    )
 
 
 def _share(part: float) -> str:

@@ -10,11 +10,12 @@ from itertools import pairwise, product
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.registry import BENDING
+from crumple.structure.hinges.automatic import near_fold
 from crumple.structure.hinges.hinges import spatial_record_of
 from crumple.structure.hinges.law_choice import Surroundings
 from crumple.structure.hinges.places import HingePlace, alike_law, law_of, member_hinge_places
 from crumple.structure.hinges.runs.ends import holds_rotation
-from crumple.structure.keys.member import Hinge
+from crumple.structure.keys.member import AutomaticHinges, Hinge
 from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import Names, outside
 
@@ -26,7 +27,8 @@ def place_problems(structure: StructureParts, known: Mapping[str, Names]) -> Ite
     """Places, names and laws of hinges."""
     where: dict[str, list[str]] = defaultdict(list)
     sound: set[tuple[str, str, str, str, Surroundings]] = set()
-    reported: set[Problem] = set()
+    reported: set[Problem | tuple[str, str]] = set()
+    bounded = _asks_bound(structure)
     for name in sound_members(structure):
         places, length = member_hinge_places(structure, name), structure.frame_of(name).length
         for place in places:
@@ -35,15 +37,19 @@ def place_problems(structure: StructureParts, known: Mapping[str, Names]) -> Ite
                 yield _outside(place, length)
         # one message for the many hinges between equal bars, and for those that one `auto` puts into many
         # members
-        for place in {(place.where, place.axis): place for place in places}.values():
+        kinds: dict[tuple[str | None, ...], HingePlace] = {(p.where, p.axis): p for p in places}
+        if bounded:
+            # what lies beside an automatic hinge decides its law, and whether that has a band
+            kinds = {(p.where, p.axis, near_fold(structure, name, p.name).fold): p for p in places}
+        for place in kinds.values():
             alike = alike_law(structure, place) if place.keys.plain else None
             if alike in sound:
                 continue
             found = list(_law_problems(structure, place, known["hinge_laws"]))
             if alike is not None and not found:
                 sound.add(alike)
-            yield from (problem for problem in found if problem not in reported)
-            reported.update(found)
+            yield from (problem for problem in found if _alike(problem) not in reported)
+            reported.update(_alike(problem) for problem in found)
         for first, second in pairwise(places):
             if second.station - first.station < APART * length:
                 what = f"the hinges '{first.name}' and '{second.name}' are at the same position"
@@ -120,8 +126,31 @@ def _law_problems(structure: StructureParts, place: HingePlace, known: Names) ->
     if not found:
         found, where = _refusals(lambda: spatial_record_of(structure, place)), place.where
     for problem in found:
+        if problem.where == "bound":
+            what = f"hinge '{place.name}' of member '{place.member}': {problem.what}"
+            written = f"hinge_laws.{named[0]}" if named else where
+            yield replace(problem, what=what, where=f"{written}.bound")
+            continue
         key = f"{problem.where}: " if problem.where else ""
         yield Problem(key + problem.what, problem.came, problem.allowed, problem.todo, where)
+
+
+def _asks_bound(structure: StructureParts) -> bool:
+    """Whether automatic hinges are asked for a bound of their law."""
+    asked = [structure.hinges, *[member.hinges for member in structure.members.values()]]
+    laws = [
+        law
+        for keys in asked
+        if isinstance(keys, AutomaticHinges)
+        for law in (keys.law, *[keys.law_about(axis) for axis in keys.bending])
+    ]
+    named = [structure.hinge_laws.get(law) if isinstance(law, str) else law for law in laws]
+    return any(law is not None and law.bound != "nominal" for law in named)
+
+
+def _alike(problem: Problem) -> Problem | tuple[str, str]:
+    """What problems have in common that are told once: those of a bound, which name a hinge, their law."""
+    return (problem.where, problem.came) if problem.where.endswith(".bound") else problem
 
 
 def _refusals(build: Callable[[], object]) -> list[Problem]:

@@ -37,6 +37,12 @@ the other one if I_y = I_z, 10 % if I_y = 4 I_z, as much as bands of laws; the m
 Outlines of tubes, hats and channels have 0 but for rounding."""
 BESIDE = 0.1
 """Distance of a force from the shear centre over the largest side from which it is beside it."""
+STEEP = math.cos(math.radians(45.0))
+"""Least sine of the slope of a member that is called a post."""
+ALONG_Z = 1e-3
+"""Sine of the lean from z below which local z is global x, as in `crumple.structure.geometry`."""
+TURNED = 5.0
+"""Least angle [deg] between local z of a post, seen from above, and the nearest global axis."""
 MOST_NAMED = 4
 """Members that a sentence names."""
 
@@ -61,6 +67,36 @@ def section_doubts(structure: StructureParts) -> tuple[Unusual, ...]:
             largest = float(np.ptp(walled.outer_outline(), axis=0).max())
             found += _beside(structure, np.array(walled.shear_centre), largest, members)
     return tuple(found)
+
+
+def turned_posts(structure: StructureParts) -> str | None:
+    """Leaning posts without `up` whose sections are turned with the direction of their lean, in a sentence.
+
+    Local z is the part of global z across the member.  It lies in the vertical plane through the member, so
+    that a rafter's section stands upright.  A post's plane is that in which it leans, at any angle to its
+    neighbours, while an exactly vertical post has global x as local z.
+    """
+    if structure.bending_normal is not None:
+        return None
+    turned = {}
+    for name, spec in structure.members.items():
+        along = structure.frame_of(name).x
+        lean = math.hypot(along[0], along[1])
+        plain = spec.up is None and spec.roll == 0.0 and structure.section_of(name).kind != "circular_tube"
+        if plain and lean > ALONG_Z and abs(along[2]) >= STEEP:
+            angle = abs(_nearest(math.atan2(along[1], along[0])))
+            if angle > TURNED:
+                turned[name] = angle
+    if not turned:
+        return None
+    worst = max(turned, key=lambda name: turned[name])
+    own, are = ("its section is", "leans") if len(turned) == 1 else ("their sections are", "lean")
+    have, at = ("has", "") if len(turned) == 1 else ("have", f", {worst} most")
+    return (
+        f"{_named(list(turned))} {are} and {have} no 'up': {own} turned with the direction of the lean, by "
+        f"{turned[worst]:.3g} deg from the global axes{at}. If that is not meant, give 'up', as [1, 0, 0] "
+        "for the section of a vertical post."
+    )
 
 
 def _oblique(metal: SectionProperties, section: str, members: list[str]) -> Iterator[Unusual]:

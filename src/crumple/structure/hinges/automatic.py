@@ -107,7 +107,7 @@ def _keys(
             if flat
             else {"axes": ("y", "z", "x") if twists(structure, member) else ("y", "z")}
         )
-    elif asked.axes and "x" not in asked.axes and _twists_elastically(structure, member):
+    elif asked.axes and "x" not in asked.axes and _twists_besides(structure, member, asked):
         keys["axes"] = (*asked.axes, "x")
     if lengthens(structure, member):
         keys["axial"] = _slip(structure, member)
@@ -149,9 +149,13 @@ def twists(structure: StructureParts, member: str) -> bool:
     return closed or not (structure.members[member].elastic or welded_to_another(structure, member))
 
 
-def _twists_elastically(structure: StructureParts, member: str) -> bool:
-    """Whether a member twists although its folds were asked for about bending axes alone."""
-    return bool(structure.members[member].elastic) and twists(structure, member)
+def _twists_besides(structure: StructureParts, member: str, asked: AutomaticHinges) -> bool:
+    """Whether a member twists although its folds were asked for about bending axes alone.
+
+    A fold about its tension flange has no twist.
+    """
+    elastic = bool(structure.members[member].elastic)
+    return elastic and asked.coupling != "tension-flange" and twists(structure, member)
 
 
 def automatic_stations(

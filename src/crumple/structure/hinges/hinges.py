@@ -90,7 +90,7 @@ def _placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
             try:
                 own[member].append(_placed(structure, place, shares[place.name]))
             except InputError as error:
-                problems += [replace(p, where=p.where or f"members.{member}") for p in error.problems]
+                problems += [_of_hinge(place, problem) for problem in error.problems]
     if problems:
         raise InputError(problems)
     joints: dict[str, list[PlacedHinge]] = defaultdict(list)
@@ -100,6 +100,13 @@ def _placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
         for joint in elastic_joints(structure, bar, hinges, about):
             joints[joint.member].append(joint)
     return tuple(hinge for member, hinges in own.items() for hinge in (*hinges, *joints[member]))
+
+
+def _of_hinge(place: HingePlace, problem: Problem) -> Problem:
+    """Problem of a hinge's law, with the hinge, its member, and its path in the input."""
+    key = f"{problem.where}: " if problem.where else ""
+    what = f"hinge '{place.name}' of member '{place.member}': {key}{problem.what}"
+    return replace(problem, what=what, where=place.where)
 
 
 def plastic_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:

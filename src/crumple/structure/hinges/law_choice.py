@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple
 
+from crumple.errors import InputError, Problem
 from crumple.hinge.bending.estimate import automatic_type
 from crumple.hinge.law import HingeLaw
 from crumple.hinge.measured.library import by_place
 from crumple.hinge.measured.place_hash import Load, place_hash
-from crumple.hinge.measured.stored import bounded
+from crumple.hinge.measured.stored import StoredLaw, bounded
 from crumple.hinge.registry import AUTO, Fold, build_law, law_options
 from crumple.hinge.tube_library.clamped import clamped_fold_distance
 from crumple.material import Material
@@ -139,7 +140,13 @@ def plain_law(kind: str) -> LawKeys:
 # a law is a pure function of these four: the hinges of a chain and the runs of a study share it
 @remembered(KEPT)
 def made_law(section: Section, material: Material, axis: Axis, spec: LawKeys) -> HingeLaw:
-    """Law of keys for a section, a material and an axis of bending."""
+    """Law of keys for a section, a material and an axis of bending.
+
+    Raises
+    ------
+    InputError
+        If the law does not fit the section, or a bound is asked of one without a band.
+    """
     given = {name: value for name, value in spec.own.items() if value is not None}
     options = set(law_options(spec.type))
     if "elastic_stiffness" in options and not isinstance(spec.elastic_stiffness, str):
@@ -149,4 +156,8 @@ def made_law(section: Section, material: Material, axis: Axis, spec: LawKeys) ->
         if given
         else formula(spec.type, section, material, axis)
     )
+    if spec.bound != "nominal" and not isinstance(law, StoredLaw) and law.validity.uncertainty is None:
+        what = f"the law about {axis} has no band, so it has no {spec.bound} bound"
+        todo = "leave 'bound' out; of several axes, give it under 'laws' to those whose law has a band"
+        raise InputError(Problem(what, law.title, "a law with a band, or bound: nominal", todo, "bound"))
     return bounded(law, spec.bound)

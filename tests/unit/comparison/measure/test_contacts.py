@@ -258,3 +258,35 @@ def test_a_struck_joint_counts_alike_with_and_without_rings_in_it():
     assert whole["wall"] == pytest.approx(hinges + taken)
     shells = replace(result, fidelity="shell", states=walls)
     assert dissipated_at(shells, tripod, {"wall": 60.0}, hinge_work(result, tripod)) == whole
+
+
+def test_a_joint_that_reaches_along_one_of_its_members_alone_is_bounded_by_both():
+    """At an obtuse bend of unequal sections the walls of the deeper tube end at the node."""
+    deep = {"type": "rectangular_tube", "width": 0.04, "depth": 0.06, "thickness": 2e-3}
+    square = {"type": "square_tube", "side": 0.04, "thickness": 2e-3}
+    plane = {"type": "plane", "point": (0.0, 0.0, 0.033), "normal": (0.0, 0.0, -1.0), "mass": 50.0}
+    bars = {"deep": ("a", "m", "deep", 0.39), "thin": ("m", "b", "square", 0.03)}
+    bent = Structure(
+        materials={"steel": STEEL},
+        sections={"deep": deep, "square": square},
+        nodes={"a": (-0.4, 0.0, 0.0), "m": (0.0, 0.0, 0.0), "b": (0.36, 0.0, -0.16)},
+        members={
+            name: {
+                "nodes": (first, second),
+                "section": section,
+                "material": "steel",
+                "hinges": [{"name": f"h{name}", "at": at, "axes": ("y", "z", "x"), "axial": True}],
+            }
+            for name, (first, second, section, at) in bars.items()
+        },
+        supports={n: {"node": n, "fix": "all"} for n in "ab"},
+        obstacles={"plate": plane | {"velocity": (0.0, 0.0, -3.0)}},
+    )
+    reaches = [joint_reach(bent, name, "m") for name in bars]
+    assert min(reaches) == 0.0 < max(reaches)
+    result = solved(bent)
+    found = at_contact(result, bent, {"plate": 150.0})
+    hinges = sum(float(result[f"hinge.h{name}.energy"][-1]) for name in bars)
+    taken = result["energy.contact"][-1] + result["energy.friction"][-1]
+    assert hinges > 0.0
+    assert found["plate"] == pytest.approx(hinges + taken)

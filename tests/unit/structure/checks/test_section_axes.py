@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 from crumple.analysis import load, loads, solve
 from crumple.cli.main import app
 from crumple.structure import with_elastic_members
-from crumple.structure.checks.section_axes import section_doubts
+from crumple.structure.checks.section_axes import section_doubts, turned_posts
 
 EXAMPLES = Path(__file__).parents[4] / "examples"
 BAR = """crumple: 1
@@ -107,3 +107,49 @@ def test_examples_and_structures_of_the_suite_have_none():
     assert len(files) > 40
     for file in files:
         assert doubts(load(file)) == (), file
+
+
+POSTS = """crumple: 1
+materials: {s: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 355 MPa}}
+sections: {c: {SECTION, thickness: 2 mm}}
+nodes: {a: [0 m, 0 m, 0 m], b: [LEAN, 1 m], c: [1 m, 0 m, 0 m], d: [1 m, 0 m, 1 m], e: [0 m, 1 m, 0 m]}
+members:
+  leaning: {nodes: [a, b], section: c, material: s KEYS}
+  upright: {nodes: [c, d], section: c, material: s}
+  sill: {nodes: [a, e], section: c, material: s}
+hinges: auto
+supports: {clamp: {node: a, fix: all}, foot: {node: c, fix: all}}
+masses: {m: {node: b, mass: 10 kg}}
+initial_velocity: [{translation: [1 m/s, 1 m/s, 0 m/s]}]
+analysis: {duration: 1 ms}
+"""
+
+
+def posts(lean="0.1 m, 0.124 m", keys="", section="type: square_tube, side: 40 mm"):
+    return POSTS.replace("LEAN", lean).replace("KEYS", keys).replace("SECTION", section)
+
+
+def test_a_post_that_leans_obliquely_without_up_is_named_by_check(tmp_path):
+    """atan(0.124/0.1) = 51.1 deg, 38.9 from y."""
+    path = tmp_path / "posts.yaml"
+    path.write_text(posts(), encoding="utf-8")
+    found = CliRunner().invoke(app, ["check", str(path)])
+    assert found.exit_code == 0, found.output
+    said = "leaning leans and has no 'up': its section is turned with the direction of the lean, by 38.9 deg"
+    assert said in " ".join(found.output.split())
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        {"keys": ", up: [1, 0, 0]"},
+        {"keys": ", roll: 10 deg"},
+        {"lean": "0.1 m, 0.005 m"},
+        {"lean": "2 m, 2.5 m"},
+        {"lean": "0.0005 m, 0.0006 m"},
+        {"section": "type: circular_tube, diameter: 40 mm"},
+    ],
+)
+def test_posts_whose_sections_are_where_one_expects_them_are_not(keys):
+    assert turned_posts(loads(posts()).structure) is not None
+    assert turned_posts(loads(posts(**keys)).structure) is None

@@ -4,6 +4,7 @@ import pytest
 from tests.support.multibody.frames import CLAMP, LAW, member, structure
 
 from crumple.errors import InputError
+from crumple.hinge import Freedom
 from crumple.section import RectangularTube, fold_distance, half_fold_length
 from crumple.structure import any_automatic, hinge_places, placed_hinges, planar
 from crumple.structure.hinges.automatic import automatic_stations
@@ -101,6 +102,17 @@ def test_elastic_members_twist_whatever_axes_their_folds_were_asked_for(elastic,
     nodes = {name: NODES[name] for name in "abc"}
     whole = structure(nodes, members, hinges={"axes": ("y", "z"), "law": LAW}, supports=CLAMP)
     assert {hinge.keys.axes for hinge in hinge_places(whole)} == {axes}
+
+
+def test_folds_about_their_tension_flange_get_no_twist_that_their_coupling_would_refuse():
+    members = {name: parts | {"elastic": 6} for name, parts in FRAME.items()}
+    asked = {"axes": ("y",), "axial": True, "coupling": "tension-flange"}
+    nodes = {name: NODES[name] for name in "abc"}
+    whole = structure(nodes, members, hinges=asked, supports=CLAMP)
+    found = [hinge for hinge in placed_hinges(whole) if hinge.plastic]
+    assert found
+    assert {hinge.keys.axes for hinge in hinge_places(whole)} == {("y",)}
+    assert all(set(hinge.spatial.freedoms) == {Freedom.AXIAL, Freedom.Y} for hinge in found)
 
 
 def test_the_law_of_candidates_is_the_one_given():

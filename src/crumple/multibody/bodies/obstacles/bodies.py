@@ -21,9 +21,10 @@ from crumple._core.spatial.model import (
     SpatialModel,
     SpatialObstacle,
 )
-from crumple.multibody.bodies.capsules import member_capsules, row_shifts, touching_pairs, with_folds
+from crumple.multibody.bodies.capsules import member_capsules, touching_pairs, with_folds
 from crumple.multibody.bodies.crossing import crossing_members
 from crumple.multibody.bodies.crumpling_ends import CrumplingEnd
+from crumple.multibody.bodies.edges import shifts
 from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.multibody.bodies.obstacles.faces import Face, face_of
 from crumple.multibody.bodies.obstacles.motion import guided_or_driven
@@ -112,7 +113,7 @@ def with_obstacles(
     moving, member = member_capsules(structure, linkage.pieces)
     moving = with_folds(structure, linkage, moving, member)
     surface = surface_of(structure, linkage, moving, member, walls)
-    rows = {name: row_shifts(structure, name) for name in structure.members}
+    rows = {name: shifts(structure, surface.edges, name) for name in structure.members}
     together = {plane: bodies_together(linkage, rows, folding=plane) for plane in (False, True)}
     added = _Added(model, light)
     duration = max(stage.duration for stage in stages)
