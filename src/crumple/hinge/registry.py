@@ -78,7 +78,7 @@ BENDING: Registry[LawType] = Registry(
         "library": "crumple.hinge.tube_library.law:TubeLibraryLaw",
         "clamped_tube": "crumple.hinge.tube_library.clamped:ClampedTubeLaw",
         "hardening_tube": "crumple.hinge.tube_library.hardening_tube:HardeningTubeLaw",
-        "hardening_section": "crumple.hinge.tube_library.hardening_section:HardeningSectionLaw",
+        "hardening_section": "crumple.hinge.bending.hardening_section:HardeningSectionLaw",
         "estimate": "crumple.hinge.bending.estimate:EstimatedLaw",
         "auto": "crumple.hinge.bending.estimate:AutoLaw",
     },

@@ -35,7 +35,7 @@ class HardeningSectionLaw(HardeningTubeLaw):
 
     References
     ----------
-    docs/theory/tube_library.md.  Verified in tests/unit/hinge/tube_library/test_hardening_section.py.
+    docs/theory/tube_library.md.  Verified in tests/unit/hinge/bending/test_hardening_section.py.
     """
 
     name: ClassVar[str] = "hardening_section"
