@@ -28,7 +28,6 @@ shells: the larger of the difference of the two finest meshes and that of the im
 relative to the shells' value, or to 5 % of the largest value of the structure if that is more. A run that is
 refused or does not complete is wrong in every figure. The *judged-by* half was fixed before any model was
 changed because of this suite; frames at walls came later, and were divided by lot before any was solved.
-Automatic hinges of rigid members do not shorten: frames at walls stop at once, with a caution.
 """
 HEADS = {
     "judged-by": "## Judged-by half\n",

@@ -36,10 +36,8 @@ def test_a_driven_obstacle_at_what_is_locked_crushes_it(index):
     result = solve(index)
     assert result.status is Status.COMPLETE, result.reason
     assert result.energy_residual < 1e-3
-    # frame 116 is met by a plane obliquely at a free end; members of frame 900 shorten
-    slips = [name for name in result.channels if name.endswith("slip.x.plastic_travel")]
-    shortened = max((float(np.abs(result[name]).max()) for name in slips), default=0.0) > 1e-3
-    assert shortened or "crumpled_end" in {caution.code for caution in result.cautions}
+    # frame 116 is met by a plane obliquely at a free end
+    assert {"crushed_contact", "crumpled_end"} & {caution.code for caution in result.cautions}
 
 
 def test_what_is_driven_beyond_its_limit_ends_before_numbers_lose_their_meaning():

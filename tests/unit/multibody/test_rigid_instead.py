@@ -7,7 +7,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from tests.unit.multibody.checks.test_crushing import KINKED_RAIL
 from tests.unit.multibody.checks.test_overloaded import rails
 
 from crumple._core.outcome import Outcome
@@ -45,7 +44,8 @@ def test_the_answer_is_that_of_rigid_bars(ended):
 
 
 def crushed():
-    analysis = loads(KINKED_RAIL.replace("MEMBERS", "rigid"))
+    text = Path("examples/07_axial_crush.yaml").read_text(encoding="utf-8")
+    analysis = loads(text.replace("shell:", "multibody: {members: rigid}\n  shell:"))
     return analysis.structure, run_of(analysis)
 
 

@@ -33,7 +33,7 @@ from crumple.section import AXES, plastic_interaction
 from crumple.structure import Structure
 from crumple.structure.checks.doubtful import double_members
 from crumple.structure.hinges.asked import automatic_of
-from crumple.structure.hinges.lengthening.pressed import presses_along
+from crumple.structure.hinges.joint_reach import strikes_joint
 from crumple.structure.hinges.lengthening.stopped import stopped
 from crumple.structure.hinges.runs.straight_runs import straight_run
 from crumple.units import format_quantity, plain_number
@@ -51,7 +51,7 @@ ELONGATION = 0.2
 steels reach 0.20 to 0.26 between the marks of a bar in tension (EN 10025-2), most others less."""
 BEND = (
     "or 'members: elastic' in analysis.multibody, with which automatic hinges shorten where an impact "
-    "presses along members, "
+    "would stop the structure, "
 )
 """What else helps rigid members with automatic hinges."""
 
@@ -264,7 +264,7 @@ def _euler(structure: Structure, member: str) -> float:
 
 def _bending(structure: Structure, members: Iterable[str]) -> str:
     """What else helps rigid members with automatic hinges; those without any get them where members bend."""
-    if not (stopped(structure) or presses_along(structure)):
+    if not (stopped(structure) or strikes_joint(structure)):
         return ""
     for name in members:
         spec = structure.members[name]

@@ -89,16 +89,11 @@ def test_it_slips_at_right_angles_to_the_mitre():
         {"obstacles": "{}"},
         {"members": "rigid"},
         {"hinges": "{axial: false}"},
+        {"hinges": "{law: {type: auto, form: regularised}}"},
     ],
 )
 def test_it_only_turns_where_nothing_presses_or_the_model_or_the_input_does_not_let_it_slip(case):
     assert corner(**case).spatial is None
-
-
-def test_regularised_laws_slip_without_a_tension_flange():
-    spatial = corner("{law: {type: auto, form: regularised}}").spatial
-    assert {*spatial.freedoms} == {Freedom.AXIAL, Freedom.Y}
-    assert spatial.surface.coupling is Coupling.SECTION
 
 
 def test_a_coupling_of_the_input_is_kept():

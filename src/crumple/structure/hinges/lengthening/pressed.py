@@ -15,7 +15,7 @@ import numpy as np
 from crumple.numeric.arrays import Floats
 from crumple.structure.hinges.joint_reach import strikes_joint
 from crumple.structure.hinges.lengthening.at_start import nodes_at_start, obstacle_at_start
-from crumple.structure.hinges.lengthening.stopped import ALONG, presses, stopped
+from crumple.structure.hinges.lengthening.stopped import ALONG, stopped
 from crumple.structure.parts import StructureParts
 
 
@@ -26,15 +26,7 @@ def struck_along(structure: StructureParts, member: str) -> bool:
     """
     if stopped(structure):
         return True
-    return bool(structure.members[member].elastic) and presses_along(structure)
-
-
-def presses_along(structure: StructureParts) -> bool:
-    """Whether an impact presses a structure along members, which may sway under it.
-
-    The force along them then stays below the squash load, and takes from their moment.
-    """
-    return strikes_joint(structure) or presses(structure)
+    return bool(structure.members[member].elastic) and strikes_joint(structure)
 
 
 def kinks_pressed(structure: StructureParts, member: str) -> bool:
