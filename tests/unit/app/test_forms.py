@@ -75,7 +75,8 @@ def test_bands_of_curves_are_the_runs_with_scaled_laws():
 
 
 def test_without_known_bands_there_are_none():
-    _, message = asked(start_text("portal_frame"), "bands")
+    # corners that are too wide for the library
+    _, message = asked(start_text("portal_frame").replace("radius: 6 mm", "radius: 10 mm"), "bands")
     assert message["bands"] is None
     assert Answering()(Job("bands"), lambda share: True, lambda: False)["bands"] is None
 

@@ -18,7 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -41,7 +41,9 @@ from crumple.hinge.tube_library.hardening import hardens
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, RectangularTube, Section
-from crumple.section.shapes.closed_hat import ClosedHat
+
+if TYPE_CHECKING:
+    from crumple.section.shapes.closed_hat import ClosedHat
 
 SOURCE = Source(
     "plastic moment of the section, softening of a rectangular tube of the same outer size",
@@ -103,7 +105,7 @@ class EstimatedLaw:
             Axis of bending.
         """
         plastic = material.yield_stress * section.plastic_section_modulus(axis)
-        stocky = axis == "z" and isinstance(section, ClosedHat) and _has_stocky_edges(section, material)
+        stocky = axis == "z" and section.kind == "closed_hat" and _has_stocky_edges(section, material)
         tube = None if stocky else _tube_around(section, material, axis)
         if stocky:
             basis = "the two sheets of each flange do not buckle: no softening"
@@ -205,10 +207,11 @@ def _is_wide(section: Section, axis: Axis) -> bool:
     return isinstance(section, RectangularTube) and flange > DEEP * depth
 
 
-def _has_stocky_edges(section: ClosedHat, material: Material) -> bool:
-    together = section.thickness + (section.plate_thickness or section.thickness)
+def _has_stocky_edges(section: Section, material: Material) -> bool:
+    hat = cast("ClosedHat", section)
+    together = hat.thickness + (hat.plate_thickness or hat.thickness)
     strain = math.sqrt(YIELD_STRAIN * material.youngs_modulus / material.yield_stress)
-    return section.flange <= OUTSTAND * strain * together
+    return hat.flange <= OUTSTAND * strain * together
 
 
 def _tube_around(section: Section, material: Material, axis: Axis) -> KecmanLaw | None:
