@@ -234,3 +234,17 @@ def test_joints_between_an_end_and_the_fold_there_do_not_yield():
         inside = [joint for joint in joints if joint not in ends]
         assert inside
         assert all(float(joint.record.positive.moment[0]) <= strongest for joint in inside)
+
+
+@pytest.mark.parametrize("ends", ["ab", "ba"])
+def test_joints_between_a_fold_and_a_free_end_yield_however_near_the_fold(ends):
+    """There the moment is smaller than at the fold; what lies within a fold of it had been left out."""
+    arm = {ends: member(*ends) | {"hinges": "auto", "elastic": 24}}
+    whole = structure({k: NODES[k] for k in "ab"}, arm, supports=CLAMP)
+    (fold,) = [hinge for hinge in placed_hinges(whole) if hinge.plastic]
+    joints = [hinge for hinge in placed_hinges(whole) if not hinge.plastic]
+    strongest = float(fold.record.positive.moment.max())
+    beyond = [joint for joint in joints if joint.position[0] > fold.position[0]]
+    length = 2.0 * half_fold_length(whole.section_of(ends), "y")
+    assert min(joint.position[0] for joint in beyond) < fold.position[0] + length
+    assert all(float(joint.record.positive.moment[0]) <= strongest for joint in beyond)
