@@ -122,7 +122,8 @@ def law_use(structure: StructureParts, place: HingePlace, law: HingeLaw, record:
     origin: Origin = "stored"
     if text is None:
         named = is_named_law(structure, place)
-        origin = "user" if named else UNNAMED.get(law.name, "formula")
+        # a law that hardens is of the origin of what it hardens
+        origin = "user" if named else UNNAMED.get(getattr(law, "formula", law).name, "formula")
     band = law.validity.uncertainty
     content = content_hash(text) if text is not None else _hash_of_record(law, record)
     better = (

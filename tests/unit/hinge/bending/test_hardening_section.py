@@ -15,6 +15,7 @@ from crumple.section import RectangularTube
 from crumple.section.shapes.written import written_section
 from crumple.section.wall import Wall
 from crumple.section.wall_section import WallSection
+from crumple.structure import Structure, law_uses
 
 YIELD = Material("steel", 210e9, 0.3, 7850.0, 350e6)
 STEEL = replace(YIELD, hardening=Swift(350e6, 0.01, 0.15))
@@ -66,3 +67,21 @@ def test_without_a_tube_around_it_is_the_law_at_yield():
 def test_it_is_refused_for_tubes_and_for_metals_that_do_not_harden(section, material, message):
     with pytest.raises(InputError, match=message):
         build_law("hardening_section", section, material, "y")
+
+
+@pytest.mark.parametrize(("axis", "origin"), [("y", "formula"), ("z", "estimate")])
+def test_its_origin_is_that_of_the_law_at_yield(axis, origin):
+    curve = {"type": "swift", "prestrain": 0.01, "exponent": 0.15}
+    steel = {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "density": 7850.0, "yield_stress": 350e6}
+    shape = {"type": "closed_hat", "width": 0.05, "depth": 0.04, "thickness": 0.0015, "flange": 0.015}
+    whole = Structure(
+        materials={"steel": steel | {"hardening": curve}},
+        sections={"hat": shape},
+        nodes={"foot": (0.0, 0.0, 0.0), "tip": (0.5, 0.0, 0.0)},
+        members={"arm": {"nodes": ("foot", "tip"), "section": "hat", "material": "steel"}},
+        hinges={"axis": axis},
+        supports={"foot": {"node": "foot", "fix": "all"}},
+        masses={"tip": {"node": "tip", "mass": 5.0}},
+    )
+    (use,) = law_uses(whole).values()
+    assert (use.origin, use.band) == (origin, None)
