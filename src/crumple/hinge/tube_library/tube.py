@@ -32,7 +32,7 @@ SOFTER = 0.08
 """Largest change of the moment from a yield strain of 0.0012 to `SOFTEST`, of ten tubes solved at both."""
 ROUNDEST = 3.0
 """Largest outer radius of the corners of such tubes over their wall; EN 10219-2 has 2 up to 6 mm."""
-ROUNDED = 0.11
+ROUNDED = 0.2
 """Largest difference of M/M_p with such corners up to 20 degrees, of tubes solved with both."""
 TODO = "use a formula, or solve this tube (crumple characterise)"
 

@@ -112,7 +112,7 @@ def test_soft_metals_and_rounded_corners_have_the_law_of_the_nearest_tube_with_a
     narrow = build_law(name, replace(TUBE, corner_radius=0.006), lowest, "y")
     assert narrow.share == known.share
     assert narrow.plastic_moment < 0.97 * known.plastic_moment
-    assert narrow.validity.uncertainty == pytest.approx(known.validity.uncertainty + 0.11)
+    assert narrow.validity.uncertainty == pytest.approx(known.validity.uncertainty + 0.2)
 
 
 def test_every_coordinate_that_is_out_of_range_is_named():
