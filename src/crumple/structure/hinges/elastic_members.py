@@ -5,7 +5,7 @@ besides its hinges. Joints and hinges share the bending flexibility of the bar e
 (crumple.structure.hinges.flexibility); the mass of each segment moves with it, so that the bar
 vibrates. A joint yields as the section does with plane walls,
 
-    theta_p(M) = l (kappa(M) - M/EI)        l: length of bar that the joint stands for,
+    theta_p(M) = l (kappa(M) - M/EI)        l: length of bar that yields there,
 
 from first yield to the largest moment of the straight member's fold: what is beyond belongs to the hinges.
 Theory and limits: docs/theory/elastic_members.md.
@@ -169,21 +169,25 @@ def _across(axis: Axis) -> Floats:
     return np.array([0.0, 1.0] if axis == "y" else [1.0, 0.0])
 
 
-def yielding_record(structure: StructureParts, member: str, axis: Axis, length: float) -> HingeRecord:
-    """Record of a joint that stands for a length [m] of a member in bending about an axis."""
+def yielding_record(
+    structure: StructureParts, member: str, axis: Axis, length: float, yields: float
+) -> HingeRecord:
+    """Record of a joint of a member: `length` bends elastically there, and `yields` yields [m]."""
     section, material = structure.section_of(member), structure.material_of(member)
-    return _record(section, material, axis, structure.flexural_rigidity(member, axis), length)
+    return _record(section, material, axis, structure.flexural_rigidity(member, axis), length, yields)
 
 
 @remembered(KEPT)
-def _record(section: Section, material: Material, axis: Axis, rigidity: float, length: float) -> HingeRecord:
+def _record(
+    section: Section, material: Material, axis: Axis, rigidity: float, length: float, yields: float
+) -> HingeRecord:
     rotation, moment = _yielding(section, material, axis, rigidity)
     law = build_law(
         "table",
         section,
         material,
         axis,
-        rotation=tuple((length * rotation).tolist()),
+        rotation=tuple((yields * rotation).tolist()),
         moment=tuple(moment.tolist()),
     )
     stiffness = rigidity / length

@@ -7,7 +7,7 @@ import pytest
 
 from crumple.errors import InputError
 from crumple.hinge import Coupling, Form, Freedom, build_law
-from crumple.section import plastic_interaction
+from crumple.section import half_fold_length, plastic_interaction
 from crumple.structure import Structure, placed_hinges
 from crumple.structure.hinges.elastic_members import yielding_record
 from crumple.structure.hinges.joints.elastic_joints import elastic_joints
@@ -317,11 +317,26 @@ def test_joints_of_a_metal_that_hardens_keep_the_largest_moment_of_its_fold():
         whole = Structure(**PARTS | {"materials": metals}, members={"bar": member | {"material": metal}})
         section, material = whole.section_of("bar"), whole.material_of("bar")
         law = build_law("hardening_tube" if metal == "hard" else "kecman", section, material)
-        record = yielding_record(whole, "bar", "y", 0.1)
+        record = yielding_record(whole, "bar", "y", 0.1, 0.1)
         most[metal] = float(record.positive.moment.max())
         peak = law.moment_capacity(np.radians(np.arange(0.0, 41.0))).max()
         assert most[metal] == pytest.approx(peak, rel=1e-4)
     assert most["hard"] > 1.1 * most["steel"]
+
+
+@pytest.mark.parametrize("held", [["root"], ["root", "tip"]])
+def test_joints_yield_over_all_of_a_member_but_its_folds(held):
+    member = {"nodes": ["root", "tip"], "section": "square", "material": "steel", "elastic": 6}
+    supports = {node: {"node": node, "fix": "all"} for node in held}
+    whole = Structure(**PARTS | {"supports": supports}, members={"bar": member | {"hinges": "auto"}})
+    metre = yielding_record(whole, "bar", "y", 1.0, 1.0).positive
+    hinges = placed_hinges(whole)
+    # joints are alike but for their lengths; the first point beyond yielding tells these
+    yields = [h.record.positive.rotation[1] / metre.rotation[1] for h in hinges if not h.plastic]
+    folds = [2.0 * half_fold_length(whole.section_of("bar"), "y") for h in hinges if h.plastic]
+    assert len(yields) > 2
+    assert len(folds) >= len(held)
+    assert sum(yields) == pytest.approx(1.0 - sum(folds), rel=1e-6)
 
 
 def test_walls_beside_a_clamp_do_not_yield_in_place_of_the_stronger_fold_there():
@@ -342,6 +357,6 @@ def test_walls_beside_a_clamp_do_not_yield_in_place_of_the_stronger_fold_there()
     turns = np.radians(np.arange(0.0, 41.0))
     peak = float(clamped.moment_capacity(turns).max())
     assert peak > 1.2 * float(formula.moment_capacity(turns).max())
-    most = float(yielding_record(whole, "bar", "y", 0.1).positive.moment.max())
+    most = float(yielding_record(whole, "bar", "y", 0.1, 0.1).positive.moment.max())
     # of the folds of this member the one between two pieces is a little stronger still
     assert 0.9999 * peak < most < 1.1 * peak

@@ -59,7 +59,13 @@ def elastic_joints(
     by_member: dict[str, list[tuple[float, dict[Axis, float]]]] = defaultdict(list)
     for along, by_axis in lengths:
         by_member[bar.member_at(along)].append((along, by_axis))
-    beside = _Beside(structure, bar, own, {axis: shares.free for axis, shares in about.items()})
+    beside = _Beside(
+        structure,
+        bar,
+        own,
+        {axis: shares.free for axis, shares in about.items()},
+        {axis: [along for along, by_axis in lengths if axis in by_axis] for axis in about},
+    )
     found = []
     for member, joints in by_member.items():
         stretch = bar.stretches[member]
@@ -108,6 +114,7 @@ class _Beside:
     bar: StraightRun
     own: list[PlacedHinge]
     free: Mapping[Axis, tuple[bool, bool]]
+    joints: Mapping[Axis, list[float]]
 
     def twist(self, along: float, length: float, bending: dict[Axis, HingeRecord]) -> HingeComponent:
         """Twist of a joint that stands for a length of the bar [m]: it yields as it bends."""
@@ -130,7 +137,7 @@ class _Beside:
         lengths = tributary_lengths(places, bar.length, rigid_along(structure, bar))
         span, held_ends = warping_span(structure, bar)
         metal = structure.section_of(bar.first), structure.material_of(bar.first)
-        like = yielding_record(structure, bar.first, "y", span)
+        like = yielding_record(structure, bar.first, "y", span, span)
         for i, (along, length) in enumerate(zip(places, lengths, strict=True), 1):
             twist = twist_component(
                 like, metal, HingeShares({}, 1.0, length, length, length, span, held_ends)
@@ -145,21 +152,60 @@ class _Beside:
         """Record of a joint that stands for a length of the bar [m].
 
         One between an end that carries a moment and the fold there, or in a rigid joint, does not yield: the
-        hinge stands for the fold of all that lies beyond it. Walls that yielded there without folding would
+        hinge stands for the fold of all that lies beyond it. Nor does one whose walls are all in a fold. Walls that yielded there without folding would
         carry its largest moment whatever the rotation.
         """
         elastic = self.structure.members[self.bar.first].elastic
-        if elastic and not self._beyond_a_fold(axis, along):
-            return yielding_record(self.structure, self.bar.first, axis, length)
+        yields = self._yields(axis, along) if elastic and not self._beyond_a_fold(axis, along) else 0.0
+        if yields > 0.0:
+            return yielding_record(self.structure, self.bar.first, axis, length, yields)
         strongest = max(
             (float(curve.moment.max()) for h in self.own for curve in (h.record.positive, h.record.negative)),
             default=float(
-                yielding_record(self.structure, self.bar.first, axis, length).positive.moment.max()
+                yielding_record(self.structure, self.bar.first, axis, length, length).positive.moment.max()
             ),
         )
         stiffness = self.structure.flexural_rigidity(self.bar.first, axis) / length
         law = ConstantLaw(FIRM * strongest)
         return hinge.record_of(law, form=Form.ELASTIC_PLASTIC, elastic_stiffness=stiffness)
+
+    def _yields(self, axis: Axis, along: float) -> float:
+        """Length that yields at a joint [m]: half way to the joints beside it, without what is in folds."""
+        folds, joints = self._folded(axis), self.joints[axis]
+        first, last = between_joints(self.structure, self.bar)
+        low = max([first, *(end for start, end in folds if start + end <= 2.0 * along)])
+        high = min([last, *(start for start, end in folds if start + end > 2.0 * along)])
+        for other in joints:
+            between = sorted((other, along))
+            if other != along and not any(2.0 * between[0] < a + b <= 2.0 * between[1] for a, b in folds):
+                half = (other + along) / 2.0
+                low, high = (max(low, half), high) if other < along else (low, min(high, half))
+        rigid = rigid_along(self.structure, self.bar)
+        return high - low - sum(max(0.0, min(b, high) - max(a, low)) for a, b in rigid)
+
+    def _folded(self, axis: Axis) -> list[tuple[float, float]]:
+        """Stretches of the bar whose plastic bending is part of the rotation of a fold [m].
+
+        Two half folds, beside a clamp or joint from there on; at a corner one side of the section.
+        """
+        section = self.structure.section_of(self.bar.first)
+        half, side = half_fold_length(section, axis), section.bending_depth(axis)
+        first, last = between_joints(self.structure, self.bar)
+        corners = self._folds_at_corners(axis)
+        found = [(at - side, at + side) for at in corners]
+        for fold in self.own:
+            at = self.bar.stretches[fold.member].along(fold.station)
+            if not _bends_about(fold, axis):
+                continue
+            if at in (0.0, self.bar.length):
+                found.append((at - side, at + side))
+            elif at - first < 2.0 * half:
+                found.append((first, first + 2.0 * half))
+            elif last - at < 2.0 * half:
+                found.append((last - 2.0 * half, last))
+            else:
+                found.append((at - half, at + half))
+        return found
 
     def _beyond_a_fold(self, axis: Axis, along: float) -> bool:
         """Whether a place lies in a rigid joint, or between an end and a hinge less than one fold away.
