@@ -152,8 +152,8 @@ class _Beside:
         """Record of a joint that stands for a length of the bar [m].
 
         One between an end that carries a moment and the fold there, or in a rigid joint, does not yield: the
-        hinge stands for the fold of all that lies beyond it. Nor does one whose walls are all in a fold. Walls that yielded there without folding would
-        carry its largest moment whatever the rotation.
+        hinge stands for the fold of all that lies beyond it. Nor does one whose walls are all in a fold.
+        Walls that yielded there without folding would carry its largest moment whatever the rotation.
         """
         elastic = self.structure.members[self.bar.first].elastic
         yields = self._yields(axis, along) if elastic and not self._beyond_a_fold(axis, along) else 0.0
