@@ -349,3 +349,22 @@ def test_a_rough_pole_sinks_as_a_smooth_one():
     turned, other = (result.hinges[fold.name].rotation_max for result in (smooth, rough))
     assert other == pytest.approx(turned, rel=5e-3)
     assert rough["obstacle.pole.dent"].max() == pytest.approx(smooth["obstacle.pole.dent"].max(), rel=5e-3)
+
+
+def test_a_tube_behind_the_dented_one_stops_the_pole_where_it_is(record_figure):
+    """A rigid tube lies 10 mm behind the first: its dent cannot be deeper, and the pole gives all momentum."""
+    change = (
+        "supports: {",
+        "supports: {c: {node: near, fix: all}, d: {node: far, fix: all}, ",
+    )
+    text = TEXT.replace("SECTION", ROUND).replace("OBSTACLE", f"{POLE}, {THROWN}").replace(*change)
+    nodes = "nodes: {near: [0 m, 300 mm, -10 mm], far: [800 mm, 300 mm, -10 mm], "
+    behind = "members:\n  behind: {nodes: [near, far], section: tube, material: steel}\n"
+    result = crumple.solve(crumple.loads(text.replace("nodes: {", nodes, 1).replace("members:\n", behind)))
+    assert [dent.member for dent in result.dents] == ["a"]
+    record_figure("way of the pole", -float(result["obstacle.pole.displacement.z"].min()), 11e-3, 0.1e-3, "m")
+    record_figure("deepest dent", float(result["obstacle.pole.dent"].max()), 10e-3, 0.1e-3, "m")
+    # every force is the mean since the output before
+    given = float(result["obstacle.pole.force.z"][1:] @ np.diff(result.time))
+    bounced = float(result["obstacle.pole.velocity.z"][-1])
+    record_figure("impulse over that of the pole", given / (MASS * (SPEED + bounced)), 1.0, 0.01)

@@ -289,9 +289,7 @@ def _rotations(states: States, structure: Structure) -> dict[str, Floats]:
     for hinge in plastic_hinges(structure):
         folds.setdefault(hinge.member, []).append(hinge.station)
     rings = {
-        (member, end): _ring(
-            states, member, (border, _borders(structure, member)[0] / 2), folds.get(member, [])
-        )
+        (member, end): _ring(states, member, border, folds.get(member, []))
         for member in structure.members
         for end, border in enumerate(_borders(structure, member))
     }
@@ -324,17 +322,12 @@ def _between(first: Floats, second: Floats) -> Floats:
     return rotation_vector(np.swapaxes(first, 1, 2) @ second)
 
 
-def _ring(states: States, member: str, place: tuple[float, float], folds: list[float]) -> Floats:
-    """Rotation of a ring near a station in every state, (n_states, 3, 3).
-
-    `place`: station, and distance within which a ring between hinges is preferred to one at a hinge [m].
-    """
-    station, room = place
+def _ring(states: States, member: str, station: float, folds: list[float]) -> Floats:
+    """Rotation of the ring nearest to a station, but at no hinge, in every state, (n_states, 3, 3)."""
     own = states.member == states.member_names.index(member)
     stations = np.unique(np.round(states.station[own], 9))
     # a ring at a hinge turns by the mean of both sides, which matters where it folds
-    near = [s for s in stations if abs(s - station) <= room]
-    clear = [s for s in near if all(abs(s - fold) > 1e-6 for fold in folds)] or list(stations)
+    clear = [s for s in stations if all(abs(s - fold) > 1e-6 for fold in folds)] or list(stations)
     nearest = min(clear, key=lambda s: abs(s - station))
     points = np.flatnonzero(own & (np.abs(states.station - nearest) < 1e-8))
     start = states.points[points]

@@ -250,12 +250,11 @@ def _refuse_later_motion(stages: Sequence[Stage]) -> None:
 
 def kernel_stage(structure: Structure, linkage: Linkage, touching: Touching, stage: Stage) -> SpatialStage:
     """Loads, drives and obstacles of a stage, and the conditions that end it, by the kernel's indices."""
-    names = list(structure.obstacles)
     drives = obstacles = None
     if stage.drive is not None:
         drives = tuple(i for i, owner in enumerate(touching.drives) if owner in stage.drive)
     if stage.obstacles is not None:
-        obstacles = tuple(names.index(name) for name in stage.obstacles)
+        obstacles = tuple(k for k, name in enumerate(touching.obstacles) if name in stage.obstacles)
     conditions = kernel_conditions(structure, linkage, touching, stage)
     return SpatialStage(
         stage.duration,

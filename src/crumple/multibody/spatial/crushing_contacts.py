@@ -57,14 +57,13 @@ def crushed_contacts(
     crushed
         Obstacle, capsules and depth [m] of every crushed contact, as `SpatialSimulation.crushed`.
     """
-    obstacles = list(structure.obstacles)
     for obstacle, first, second, depth in crushed:
         if second in touching.points:
             continue
         member = touching.members[second]
         if obstacle >= 0:
             yield CrushedContact(
-                member, f"obstacle {obstacles[obstacle]}", depth, _squash_load(structure, member)
+                member, f"obstacle {touching.obstacles[obstacle]}", depth, _squash_load(structure, member)
             )
             continue
         other = touching.members[first]

@@ -303,8 +303,9 @@ class SpatialSolver:
         )
 
     def _obstacle_channels(self, record: SpatialRecord) -> Iterator[Channel]:
-        for k, name in enumerate(self._structure.obstacles):
-            columns = {"force": record.obstacle_force[:, k]}
+        for name in self._structure.obstacles:
+            parts = [k for k, of in enumerate(self._touching.obstacles) if of == name]
+            columns = {"force": record.obstacle_force[:, parts].sum(axis=1)}
             joint = self._touching.joint.get(name)
             if joint is not None:
                 body = self._touching.model.joints[joint].second

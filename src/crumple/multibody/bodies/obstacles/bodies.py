@@ -15,6 +15,7 @@ import numpy as np
 from crumple._core.spatial.model import (
     ObstacleKind,
     SpatialBody,
+    SpatialCapsule,
     SpatialContact,
     SpatialDrive,
     SpatialJoint,
@@ -29,8 +30,8 @@ from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.multibody.bodies.obstacles.faces import Face, face_of
 from crumple.multibody.bodies.obstacles.motion import guided_or_driven
 from crumple.multibody.bodies.obstacles.sunk_walls import SunkWall, sunk_walls, with_walls
-from crumple.multibody.bodies.shared_ends import bodies_together, ends_met
-from crumple.multibody.bodies.surface import surface_of
+from crumple.multibody.bodies.shared_ends import Place, bodies_together, ends_met
+from crumple.multibody.bodies.surface import Surface, surface_of
 from crumple.numeric.arrays import Floats
 from crumple.structure import (
     CylinderObstacle,
@@ -42,10 +43,13 @@ from crumple.structure import (
     Structure,
     dented_tubes,
 )
+from crumple.structure.hinges.runs.straight_runs import straight_run
 
 LIGHT = 1e-3
 """Mass of a driven obstacle, or of a face, over that of the structure.  The motion of a driven one is given,
 so that its mass changes nothing but the work of its drive; far smaller ones would cost digits."""
+Together = Mapping[Place, Mapping[int, int]]
+"""Bodies whose points at a place stay together, as of `bodies_together`."""
 Velocity = tuple[float, float, float]
 """[m/s]."""
 
@@ -73,6 +77,9 @@ class Touching:
         Faces of obstacles that dent walls; their slips are the last hinges of the model.
     walls
         Walls into whose folds poles sink.
+    obstacles
+        Name of every obstacle of the model: those of the structure, and again those that have a face, for
+        what is behind it.
     """
 
     model: SpatialModel
@@ -83,6 +90,7 @@ class Touching:
     points: Mapping[int, CrumplingEnd] = field(default_factory=dict)
     faces: tuple[Face, ...] = ()
     walls: tuple[SunkWall, ...] = ()
+    obstacles: tuple[str, ...] = ()
 
 
 def with_obstacles(
@@ -116,18 +124,7 @@ def with_obstacles(
     rows = {name: shifts(structure, surface.edges, name) for name in structure.members}
     together = {plane: bodies_together(linkage, rows, folding=plane) for plane in (False, True)}
     added = _Added(model, light)
-    duration = max(stage.duration for stage in stages)
-    fast = all(stage.kind == "dynamic" for stage in stages)
-    obstacles = []
-    for name, obstacle in structure.obstacles.items():
-        body = added.obstacle(name, obstacle, duration)
-        tubes = dented_tubes(structure, name) if fast else ()
-        if tubes:
-            body = added.face(name, obstacle, tubes, body)
-        allowed = set(structure.members if obstacle.members is None else obstacle.members)
-        touching = tuple(i for i, of in enumerate(surface.owners(name, obstacle)) if of & allowed)
-        met = ends_met(together[isinstance(obstacle, PlaneObstacle)], surface.capsules, touching)
-        obstacles.append(replace(_shape(obstacle, body, touching), ends=met))
+    obstacles = _obstacles(structure, added, surface, together, stages)
     contact = structure.member_contact
     pairs = SpatialContact()
     if contact is not None:
@@ -140,7 +137,7 @@ def with_obstacles(
         bodies=(*model.bodies, *added.bodies),
         joints=(*model.joints, *added.joints),
         drives=(*model.drives, *added.drives),
-        obstacles=(*obstacles, *added.masses),
+        obstacles=(*obstacles, *added.behind.values()),
         hinges=(*model.hinges, *(face.slip for face in added.faces)),
         capsules=surface.capsules,
         contact=pairs,
@@ -154,7 +151,41 @@ def with_obstacles(
         surface.points,
         tuple(added.faces),
         walls,
+        (*structure.obstacles, *added.behind),
     )
+
+
+def _obstacles(
+    structure: Structure,
+    added: _Added,
+    surface: Surface,
+    together: Mapping[bool, Together],
+    stages: Sequence[Stage],
+) -> list[SpatialObstacle]:
+    """Solids of all obstacles, in their order; `together`: as of `bodies_together`, for planes and others.
+
+    A face meets the tubes that it dents, and what is behind it the rest.
+    """
+    duration = max(stage.duration for stage in stages)
+    fast = all(stage.kind == "dynamic" for stage in stages)
+    # the resultant that ends a stage is that of one solid
+    ends_on = {until.of for stage in stages for until in stage.until if until.quantity == "force"}
+    found = []
+    for name, obstacle in structure.obstacles.items():
+        mass = body = added.obstacle(name, obstacle, duration)
+        ends = together[isinstance(obstacle, PlaneObstacle)]
+        allowed = set(structure.members if obstacle.members is None else obstacle.members)
+        touching = {i: of for i, of in enumerate(surface.owners(name, obstacle)) if of & allowed}
+        tubes = dented_tubes(structure, name) if fast else ()
+        if tubes:
+            body = added.face(name, obstacle, tubes, mass)
+            runs = (straight_run(structure, tube.member) for tube in tubes)
+            dented = allowed if name in ends_on else {member for run in runs for member in run.stretches}
+            rest = tuple(i for i, of in touching.items() if not of & dented)
+            added.behind[name] = _solid(obstacle, mass, rest, surface.capsules, ends)
+            touching = {i: of for i, of in touching.items() if of & dented}
+        found.append(_solid(obstacle, body, tuple(touching), surface.capsules, ends))
+    return found
 
 
 class _Added:
@@ -170,7 +201,7 @@ class _Added:
         self.drives: list[SpatialDrive] = []
         self.owners: list[str] = []
         self.faces: list[Face] = []
-        self.masses: list[SpatialObstacle] = []
+        self.behind: dict[str, SpatialObstacle] = {}
 
     def obstacle(self, name: str, obstacle: Obstacle, duration: float) -> int:
         """Add an obstacle that moves; its body, or the ground."""
@@ -185,9 +216,8 @@ class _Added:
         return body
 
     def face(self, name: str, obstacle: Obstacle, tubes: tuple[DentedTube, ...], mass: int) -> int:
-        """Add the face of an obstacle, whose mass then meets nothing itself; the body of the face."""
+        """Add the face of an obstacle; the body of the face."""
         place = np.asarray(obstacle.point, float)
-        self.masses.append(SpatialObstacle(ObstacleKind.SPHERE, mass, place, capsules=()))
         hinge = len(self._model.hinges) + len(self.faces)
         joint = len(self._model.joints) + len(self.joints)
         face = face_of(name, tubes, hinge, joint)
@@ -203,7 +233,13 @@ class _Added:
         return len(self._model.bodies) + len(self.bodies) - 1
 
 
-def _shape(obstacle: Obstacle, body: int, touching: tuple[int, ...]) -> SpatialObstacle:
+def _solid(
+    obstacle: Obstacle,
+    body: int,
+    touching: tuple[int, ...],
+    capsules: tuple[SpatialCapsule, ...],
+    together: Together,
+) -> SpatialObstacle:
     place = np.asarray(obstacle.point, float)
     plain = SpatialObstacle(
         ObstacleKind.SPHERE,
@@ -212,6 +248,7 @@ def _shape(obstacle: Obstacle, body: int, touching: tuple[int, ...]) -> SpatialO
         friction=obstacle.friction,
         restitution=obstacle.restitution,
         capsules=touching,
+        ends=ends_met(together, capsules, touching),
     )
     if isinstance(obstacle, PlaneObstacle):
         edge = np.zeros(3) if obstacle.edge is None else _unit(obstacle.edge)

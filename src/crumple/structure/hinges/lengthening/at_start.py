@@ -12,8 +12,8 @@ from crumple.structure.parts import StructureParts
 from crumple.structure.struck_places import first_displacement
 
 
-def nodes_at_start(structure: StructureParts) -> dict[str, tuple[float, Floats]]:
-    """Mass [kg] and velocity [m/s] of every node, with half of its members."""
+def nodes_at_start(structure: StructureParts, share: float = 1.0) -> dict[str, tuple[float, Floats]]:
+    """Mass [kg] and velocity [m/s] of every node, with half of its members, times `share`."""
     parts: dict[str, list[tuple[float, Floats]]] = {}
 
     def add(node: str, mass: float, fields: list[InitialVelocity]) -> None:
@@ -24,7 +24,8 @@ def nodes_at_start(structure: StructureParts) -> dict[str, tuple[float, Floats]]
     for name, spec in structure.members.items():
         if structure.is_whole(name):
             density = structure.material_of(name).density
-            half = structure.section_of(name).mass_per_length(density) * structure.frame_of(name).length / 2.0
+            mass = structure.section_of(name).mass_per_length(density) * structure.frame_of(name).length
+            half = share * mass / 2.0
             fields = fields_of_member(structure.initial_velocity, name)
             for node in spec.nodes:
                 add(node, half, fields)

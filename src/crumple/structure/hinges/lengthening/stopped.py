@@ -29,13 +29,24 @@ ALONG = math.radians(60.0)
 """Angle of a member to the normal of what meets its end within which it is pressed along its axis."""
 LOST = 0.25
 """Share of the energy that shows that lengths cannot stay."""
+THROWN = 0.015
+"""The same of what is lost because masses are thrown along members that lead to the ground or to others."""
+LIGHT = 1e-4
+"""Share of the masses of members that counts there: what they take, they take without being pressed."""
 HEAVY = 1e3
 """Mass of an obstacle whose motion is prescribed, over that of the structure."""
 
 
 def stopped(structure: StructureParts) -> bool:
-    """Whether an impact at the start takes more than `LOST` of the energy if members keep their lengths."""
-    return structure.kept.once("stopped", "", lambda: lost_share(structure) > LOST)
+    """Whether an impact at the start takes more than `LOST` of the energy if members keep their lengths.
+
+    Or more than `THROWN`, without what obstacles and the masses of members take.
+    """
+    return structure.kept.once("stopped", "", lambda: _stopped(structure))
+
+
+def _stopped(structure: StructureParts) -> bool:
+    return lost_share(structure) > LOST or lost_share(structure, met=False) > THROWN
 
 
 def presses(structure: StructureParts) -> bool:
@@ -55,19 +66,20 @@ def _presses(structure: StructureParts) -> bool:
     return False
 
 
-def lost_share(structure: StructureParts) -> float:
+def lost_share(structure: StructureParts, *, met: bool = True) -> float:
     """Share of the energy at the start that is lost if all members keep their lengths [-]; 0 without any.
 
-    Also 0 for a structure with mistakes, of which no mass is known at some node.
+    `met`: with what obstacles meet at the start; else without the masses of members, too. Also 0 for a
+    structure with mistakes, of which no mass is known at some node.
     """
-    pinned, moving = framework(structure), nodes_at_start(structure)
+    pinned, moving = framework(structure), nodes_at_start(structure, 1.0 if met else LIGHT)
     if not moving or not pinned.free.keys() <= moving.keys():
         return 0.0
     total = sum(mass for mass, _ in moving.values())
     weights = [math.sqrt(moving[node][0]) for node, free in pinned.free.items() for _ in free]
     speeds = [part for node, free in pinned.free.items() for part in free @ moving[node][1]]
     rows = list(pinned.rows)
-    for obstacle in structure.obstacles.values():
+    for obstacle in structure.obstacles.values() if met else ():
         motion, mass = obstacle_at_start(obstacle, HEAVY * total)
         speed = float(np.linalg.norm(motion))
         carrier = (len(weights), motion / speed if speed > 0.0 else motion) if mass > 0.0 else None
