@@ -7,8 +7,9 @@ namespace crumple::spatial {
 
 namespace {
 
-// Limits of full Newton steps, which fail only by cycling: before other methods, before the central path, later in the same step.
-constexpr int full_step_limit = 32, full_step_limit_before_path = 12, full_step_limit_after_cycle = 8;
+// Limits of full Newton steps, which fail only by cycling: before other methods, before the central path without and with contacts, later
+// in the same step.
+constexpr int full_step_limit = 32, full_step_limit_before_path = 12, full_step_limit_with_contacts = 16, full_step_limit_after_cycle = 8;
 // Limit of Newton iterations for each width of the ramps before the time step is shortened: a fixed number and some per hinge, because
 // in the worst case (an impulse on the end of a long chain) hinges lock and release one at a time.
 constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
@@ -102,13 +103,14 @@ bool NewtonSolver::solve_laws() {
     };
     // without inertia a locked hinge is so stiff that the rates that release it are lost in rounding: begin with wide ramps
     if (p_.stage.quasi_static) return narrow_ramps();
-    if (!path_.exists() || p_.contacts.size() > 0) {
-        const int limit = !p_.all_set_valued ? most_iterations() : full_steps_ ? full_step_limit : full_step_limit_after_cycle;
-        if (descend(limit, p_.all_set_valued, first_found_steps)) return true;
-        full_steps_ = false;
-    } else {
-        if (full_steps_ && descend(full_step_limit_before_path, p_.all_set_valued)) return true;
-        full_steps_ = false;
+    const bool touching = p_.contacts.size() > 0, follows = path_.exists() && (!touching || p_.all_set_valued);
+    int limit = full_steps_ ? full_step_limit : full_step_limit_after_cycle;
+    if (!follows && !p_.all_set_valued) limit = most_iterations();
+    if (follows && full_steps_) limit = touching ? full_step_limit_with_contacts : full_step_limit_before_path;
+    if (follows && !full_steps_ && !touching) limit = 0;
+    if (descend(limit, p_.all_set_valued, follows ? 0 : first_found_steps)) return true;
+    full_steps_ = false;
+    if (follows) {
         for (const bool together : {false, true}) {
             restart();
             if (path_.follow(*this, together)) return true;
