@@ -27,7 +27,7 @@ bool driven(const SpatialHinge& hinge) {
 // Softening measure per rotation about an axis alone: the initial capacity, along which the centre moves that of another component.
 double weight_of(const SpatialHinge& hinge, int k, int sense) {
     const Component& c = hinge.components[static_cast<size_t>(k)];
-    return first_capacity(hinge, c.shift.values().empty() ? k : c.driver, sense);
+    return c.softens * first_capacity(hinge, c.shift.values().empty() ? k : c.driver, sense);
 }
 
 // Work D_0(e) of a proportional rotation by e at the initial capacities, and the point of the surface where it is found.  `guess`: such a
@@ -89,7 +89,7 @@ SurfacePoint measure_after(const SpatialHinge& hinge, const SpatialHingeState& s
     }
     for (int k = 0; k < size(hinge); k++) {
         if (std::fabs(e[k]) < spread_end(hinge.components[static_cast<size_t>(k)], e[k])) continue;
-        p.value += p.x[k] * first_capacity(hinge, k, p.x[k] < 0 ? 1 : 0) * flow[k];
+        p.value += p.x[k] * weight_of(hinge, k, p.x[k] < 0 ? 1 : 0) * flow[k];
     }
     return p;
 }

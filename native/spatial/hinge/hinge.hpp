@@ -43,6 +43,7 @@ struct Component {
     // Over the largest flow so far of the component, in either sense: share of its capacity in the positive and the negative sense before
     // it has flowed so far (no points: all of it).  Flow up to the end of the curve of its sense does not soften the hinge.
     hinge::Curve spread[2];
+    double softens = 1;  // weight of its rotation in the measure of softening, over that of its initial capacity
 };
 
 // Parameters of one hinge.  All components have the form and softening of the first one.

@@ -44,6 +44,7 @@ def component(freedom, positive, negative=None, **more):
         "worn_rotation": [],
         "worn_share": [],
         "driver": -1,
+        "softens": 1.0,
         "positive_spread": [[], []],
         "negative_spread": [[], []],
     } | more

@@ -352,7 +352,7 @@ def test_a_rough_pole_sinks_as_a_smooth_one():
 
 
 def test_a_tube_behind_the_dented_one_stops_the_pole_where_it_is(record_figure):
-    """A rigid tube lies 10 mm behind the first: its dent cannot be deeper, and the pole gives all momentum."""
+    """A rigid tube lies 10 mm behind the first: no dent is deeper, and the pole gives all its momentum."""
     change = (
         "supports: {",
         "supports: {c: {node: near, fix: all}, d: {node: far, fix: all}, ",

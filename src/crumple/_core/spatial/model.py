@@ -121,7 +121,7 @@ class SpatialComponent(HingeConstants):
     Over the largest rotation about the component `driver` (rotation, share; empty and -1: none): `shift`,
     where the centre of the set lies along it (the initial capacity of the driver is then its weight in the
     measure of softening), and `worn`, what is gone of its capacity.  `positive_spread`, `negative_spread`:
-    see `Spread`.
+    see `Spread`.  `softens`: weight in the measure of softening, over the initial capacity.
     """
 
     freedom: int
@@ -130,6 +130,7 @@ class SpatialComponent(HingeConstants):
     driver: int = -1
     positive_spread: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
     negative_spread: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
+    softens: float = 1.0
 
     def component(self) -> dict[str, Any]:
         """The constants and the freedom in the form that the kernel takes."""
@@ -143,6 +144,7 @@ class SpatialComponent(HingeConstants):
             "driver": self.driver,
             "positive_spread": [as_list(one) for one in self.positive_spread],
             "negative_spread": [as_list(one) for one in self.negative_spread],
+            "softens": self.softens,
         }
 
 

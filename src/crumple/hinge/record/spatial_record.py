@@ -100,6 +100,8 @@ class HingeComponent:
     spread
         Of the axial freedom, where the components share one measure of softening: the record then begins at
         the end of the spread.
+    softens
+        Weight of its rotation in the measure of softening that components share, over its capacity.
     origin
         Of the axial freedom: its law in words, with its source.
     warnings
@@ -111,6 +113,7 @@ class HingeComponent:
     shift: DrivenShare | None = None
     worn: DrivenShare | None = None
     spread: Spread | None = None
+    softens: float = 1.0
     origin: str = ""
     warnings: tuple[str, ...] = ()
 

@@ -150,7 +150,7 @@ def _stilled(joint: SpatialHinge) -> SpatialHinge:
 
 
 def _part(spatial: SpatialHingeRecord, part: HingeComponent) -> SpatialComponent:
-    plain = _component(int(part.freedom), part.record)
+    plain = replace(_component(int(part.freedom), part.record), softens=part.softens)
     index, shift, worn = spatial.freedoms.index, part.shift, part.worn
     if shift is not None:
         plain = replace(plain, driver=index(shift.driver), shift=(shift.rotation, shift.share))

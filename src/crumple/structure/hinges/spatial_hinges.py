@@ -31,6 +31,7 @@ from crumple.hinge.record.spatial_record import (
 )
 from crumple.hinge.record.spatial_recording import scaled, spatial_record
 from crumple.hinge.registry import DEFAULT_TORSION, OPEN_TORSION
+from crumple.hinge.tube_library.hardening import hardens
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import CircularTube, Section
@@ -48,6 +49,8 @@ ROWS = 16
 """Linear forms of the fitted surface: 3 to 4 % off for tubes, as with more, and cheap at every step."""
 FLAT, ROUND_FLAT = 0.65, 0.5
 """Power of the share of the moment of a fold that is left, in the share of its torque; of round tubes [-]."""
+TWISTED = 0.4
+"""Share of the work of twist that softens a fold of metal that hardens [-]: its walls fold late in shear."""
 APART = ("none", "tension-flange")
 """Couplings whose components soften apart."""
 KEPT = 64
@@ -95,11 +98,12 @@ def spatial_hinge_record(
         own, spring = law_of_twist(keys.twist, metal, shares)
         if law is not None:
             own, spring = law, _uniform_spring(metal, shares.twist)
-        twist = _like(first, own, spring)
+        twist, softens = _like(first, own, spring), 1.0
         if own.name == DEFAULT_TORSION and keys.twist is None and keys.coupling not in APART:
             power = ROUND_FLAT if isinstance(section, CircularTube) else FLAT
-            twist = flattened(twist, [component.record for component in components], power)
-        components.append(HingeComponent(Freedom.X, twist))
+            softens = TWISTED if hardens(material) else 1.0
+            twist = flattened(twist, [component.record for component in components], power, softens)
+        components.append(HingeComponent(Freedom.X, twist, softens=softens))
     coupling = Coupling(keys.coupling or "section")
     if keys.axial is not None:
         law_of_slip, slip = _axial(keys.axial, crush, first, metal, shares)
@@ -118,6 +122,11 @@ def spatial_hinge_record(
         arm=(section.bending_depth(bending[0]) - section.thickness) / 2.0,
         fracture=math.inf if keys.fracture is None else keys.fracture,
     )
+    return beside_shear(record, section, material)
+
+
+def beside_shear(record: SpatialHingeRecord, section: Section, material: Material) -> SpatialHingeRecord:
+    """The same hinge, whose torque leaves its part of the walls to the shear force, if it is coupled."""
     if record.surface.coupling is Coupling.NONE or Freedom.X not in record.freedoms:
         return record
     lost, alike = interaction_of(section, material).torque_lost_to_shear, isinstance(section, CircularTube)
@@ -182,14 +191,18 @@ def twist_component(
     return HingeComponent(Freedom.X, replace(record, viscous_damping=damping))
 
 
-def flattened(twist: HingeRecord, bending: Sequence[HingeRecord], power: float) -> HingeRecord:
+def flattened(
+    twist: HingeRecord, bending: Sequence[HingeRecord], power: float, softens: float = 1.0
+) -> HingeRecord:
     """Twist whose torque falls as a fold flattens the section, with a power of what is left of its moment.
 
-    All components of a hinge share one measure of their rotations, a work; see docs/theory/torsion.md.
+    All components of a hinge share one measure of their rotations, a work, in which the twist has the weight
+    `softens`; see docs/theory/torsion.md.
     """
-    first = float(twist.positive.moment[0])
+    first = softens * float(twist.positive.moment[0])
     curves = [curve for one in bending for curve in (one.positive, one.negative)]
-    work = np.unique(np.concatenate([c.rotation * c.moment[0] for c in (twist.positive, *curves)]))
+    works = [first * twist.positive.rotation, *(curve.rotation * curve.moment[0] for curve in curves)]
+    work = np.unique(np.concatenate(works))
     left = np.mean([_left(curve, work) for curve in curves], axis=0)
     torque = np.interp(work / first, twist.positive.rotation, twist.positive.moment) * left**power
     envelope = Envelope(work / first, torque)

@@ -1,9 +1,12 @@
 """Zones of nodes do not end in the middle of a fold where an obstacle strikes."""
 
+import numpy as np
 import pytest
 from tests.support.structures import STEEL
 
-from crumple.comparison.measure.measures import REACH, _borders
+from crumple.analysis import Analysis, solve
+from crumple.comparison import with_frames
+from crumple.comparison.measure.measures import REACH, _borders, measure
 from crumple.section import half_fold_length
 from crumple.structure import Structure
 
@@ -24,6 +27,32 @@ def beam(station, thickness=2e-3):
         supports={n: {"node": n, "fix": "all"} for n in "ab"},
         obstacles={"pole": pole},
     )
+
+
+@pytest.mark.parametrize("station", [REACHES, 0.6 * REACHES])
+def test_a_hinge_at_a_border_turns_one_side_of_it_or_the_other(station):
+    parts = beam(0.5)
+    bar = {
+        "nodes": ("a", "b"),
+        "section": "tube",
+        "material": "steel",
+        "hinges": [{"name": "fold", "at": station}],
+    }
+    whole = Structure(
+        materials=parts.materials,
+        sections=parts.sections,
+        nodes=parts.nodes,
+        members={"bar": bar},
+        supports={"a": {"node": "a", "fix": "all"}},
+        masses={"load": {"node": "b", "mass": 10.0}},
+        initial_velocity=[{"translation": (0.0, 0.0, -8.0), "nodes": ["b"]}],
+    )
+    result = solve(with_frames(Analysis(structure=whole, duration=0.02)))
+    (turned,) = (abs(hinge.rotation_final) for hinge in result.hinges.values())
+    shares = [np.linalg.norm(measure(result, whole).rotations[name]) for name in ("a, bar", "span of bar")]
+    assert turned > 0.05
+    assert max(shares) == pytest.approx(turned, rel=1e-3)
+    assert min(shares) < 1e-3 * turned
 
 
 def test_borders_away_from_the_fold_stay():

@@ -282,6 +282,25 @@ def test_a_rotation_about_one_axis_takes_a_share_of_the_capacity_about_another(f
     np.testing.assert_allclose(settled([1.0, 0.0, 0.0]), [60.0, 0.0, 0.0], atol=0.1)
 
 
+@pytest.mark.parametrize("form", [SET_VALUED, ELASTIC_PLASTIC])
+@pytest.mark.parametrize("softening", [PEAK, ACCUMULATED])
+def test_a_component_of_small_weight_softens_the_others_by_less_of_its_work(form, softening):
+    parts = [
+        component(freedom, *curves, elastic_stiffness=1e7 if form == ELASTIC_PLASTIC else np.inf)
+        for freedom, curves in ((ABOUT_Y, (FALLING,)), (TORSION, (WEAKER,)))
+    ]
+    parts[1] |= {"softens": 0.4}
+    element = rig(hinge(*parts, form=form, softening=softening, coupling=ELLIPSOID))
+    for _ in range(300):
+        twisted = element.led(H, [0.0, 1.0])
+    # alone it follows its own curve; the other one has seen its work over its own capacity, times the weight
+    np.testing.assert_allclose(twisted, [0.0, np.interp(0.3, *WEAKER)], rtol=2e-3, atol=0.1)
+    for _ in range(20):
+        bent = element.led(1e-5, [1.0, 0.0])
+    seen = 0.4 * 0.3 * WEAKER[1][0] / FALLING[1][0]
+    np.testing.assert_allclose(bent, [np.interp(seen, *FALLING), 0.0], rtol=2e-3, atol=0.2)
+
+
 def test_capacity_sensitivity_against_differences():
     generator = np.random.default_rng(23)
     for form, coupling, n in CASES:
@@ -344,6 +363,7 @@ def test_fracture_opens_the_hinge_for_good(form, coupling):
             "shares of a shift are below 1",
         ),
         ({"components": [component(ABOUT_Y, 1.0, driver=1)]}, "depends on the rotation about a component"),
+        ({"components": [component(ABOUT_Y, 1.0, softens=0.0)]}, "positive weight"),
         (
             {"components": [component(ABOUT_Y, 1.0, worn_rotation=[0.0], worn_share=[0.1])]},
             "depends on the rotation about a component",

@@ -203,8 +203,8 @@ def test_elastic_joints_about_two_axes_that_are_near_are_one_joint(apart, number
 CURVE = {"type": "voce", "saturation": "150 MPa", "strain": 0.05}
 
 
-def twisting(curve, elastic):
-    """Hinges and joints with twist of the first member of a frame in space, and of one between corners."""
+def frame(curve, elastic):
+    """A frame in space of three members, the second between two corners."""
     steel = PARTS["materials"]["steel"] | ({"hardening": curve} if curve else {})
     nodes = {"root": [0, 0, 0], "knee": ["600 mm", 0, 0], "top": ["600 mm", 0, "500 mm"]}
     nodes["tip"] = ["600 mm", "400 mm", "500 mm"]
@@ -213,7 +213,12 @@ def twisting(curve, elastic):
     members = {name: {"nodes": nodes, **metal} for name, nodes in ends.items()}
     thrown = [{"translation": ["1 m/s", 0, "-6 m/s"], "nodes": ["tip"]}]
     own = {"materials": {"steel": steel}, "nodes": nodes, "initial_velocity": thrown, "masses": {}}
-    hinges = placed_hinges(Structure(**PARTS | own, members=members))
+    return Structure(**PARTS | own, members=members)
+
+
+def twisting(curve, elastic):
+    """Hinges and joints with twist of the first member of the frame, and of that between corners."""
+    hinges = placed_hinges(frame(curve, elastic))
 
     def of(member):
         return [
@@ -255,6 +260,20 @@ def test_members_whose_metal_hardens_twist_at_every_joint():
     assert joint.viscous_damping == pytest.approx(1e-5 * joint.elastic_stiffness)
 
 
+def test_joints_that_twist_leave_the_shear_force_its_part_of_the_walls():
+    hinges = placed_hinges(frame(CURVE, 6))
+    lost = {
+        (hinge.spatial.shear_loss, hinge.spatial.round_shear)
+        for hinge in hinges
+        if hinge.spatial is not None and Freedom.X in hinge.spatial.freedoms and hinge.axes is None
+    }
+    # a round tube loses alike to all forces, at hinges as between them
+    assert len(lost) == 1
+    ((along_y, along_z), alike) = lost.pop()
+    assert alike
+    assert along_y == along_z > 0.0
+
+
 def test_members_whose_metal_does_not_harden_twist_at_their_hinges_else_in_their_middle():
     first, between = twisting(None, 6)
     assert [plastic for plastic, _ in first] == [True]
@@ -293,6 +312,14 @@ def test_the_torque_falls_as_the_fold_flattens_the_section(section, power):
     found = np.interp(work / plastic, twist.positive.rotation, twist.positive.moment)
     np.testing.assert_allclose(found, plastic * left**power, rtol=2e-4)
     assert found[-1] < 0.95 * plastic
+
+
+@pytest.mark.parametrize(("curve", "weight"), [(None, 1.0), (CURVE, 0.4)])
+def test_twist_softens_a_fold_of_metal_that_hardens_by_less_of_its_work(curve, weight):
+    hinges = [h for h in placed_hinges(frame(curve, 6)) if h.plastic and h.axes is None]
+    twists = [c for h in hinges for c in h.spatial.components if c.freedom is Freedom.X]
+    assert twists
+    assert {twist.softens for twist in twists} == {weight}
 
 
 def metal_of(section):

@@ -9,7 +9,7 @@ from crumple.analysis import loads, solve
 from crumple.errors import InputError
 from crumple.hinge import Freedom, build_axial_law
 from crumple.structure import hinge_places, placed_hinges, with_elastic_members
-from crumple.structure.hinges.lengthening.stopped import LOST, lost_share
+from crumple.structure.hinges.lengthening.stopped import LOST, THROWN, lost_share, stopped
 
 FRAME = """crumple: 1
 materials:
@@ -135,6 +135,18 @@ def test_a_motion_that_changes_a_length_is_lost_at_the_start():
     clamped = ("obstacles:", "supports: {foot: {node: front, fix: all}}\nobstacles:")
     assert lost(RAIL, thrown, clamped) == pytest.approx(1.0)
     assert lost(RAIL, ("initial_velocity: [{translation: [-5 m/s, 0 m/s, 0 m/s]}]\n", "")) == 0.0
+
+
+def test_a_mass_thrown_along_a_member_that_leads_to_the_ground_presses_it():
+    thrown = ("{translation: [-5 m/s, 0 m/s, 0 m/s]}", "{nodes: [rear], translation: [-2 m/s, 5 m/s, 0 m/s]}")
+    clamp = ("obstacles:", "supports: {foot: {node: front, fix: all}}\nobstacles:")
+    # a seventh of the energy is along the rail
+    assert THROWN < lost(RAIL, thrown, clamp) == pytest.approx(4.0 / 29.0, rel=0.02)
+    assert stopped(loads(RAIL.replace(*thrown).replace(*clamp)).structure)
+    # a rail that leads nowhere has its own mass alone to move
+    light = ("mass: 100 kg", "mass: 0.3 kg")
+    assert lost(RAIL, thrown, light) > THROWN
+    assert not stopped(loads(RAIL.replace(*thrown).replace(*light)).structure)
 
 
 @pytest.mark.parametrize("held", [True, False])

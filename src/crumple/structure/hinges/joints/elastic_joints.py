@@ -28,7 +28,7 @@ from crumple.structure.hinges.shares import (
     twists_as_one,
     warping_span,
 )
-from crumple.structure.hinges.spatial_hinges import BENDING, twist_component
+from crumple.structure.hinges.spatial_hinges import BENDING, beside_shear, twist_component
 from crumple.structure.parts import StructureParts
 
 FIRM = 100.0
@@ -91,6 +91,9 @@ def _placed(
     record = components[0].record
     several = len(components) > 1 or components[0].freedom is Freedom.X
     spatial = hinge.spatial_record(components, coupling=coupling) if several else None
+    if spatial is not None and coupling is Coupling.ELLIPSOID:
+        metal = structure.section_of(place.member), structure.material_of(place.member)
+        spatial = beside_shear(spatial, *metal)
     return PlacedHinge(
         name=place.name,
         member=place.member,
