@@ -118,6 +118,15 @@ def test_every_mistake_is_reported_at_once_with_its_path(keys):
     assert misspelt.todo == "did you mean 'roll'?"
 
 
+def test_what_a_decimal_comma_leaves_of_a_number_is_named(keys):
+    # width: 50,5 mm
+    keys["sections"]["tube"] |= {"width": 50, "5 mm": None}
+    with pytest.raises(InputError) as refusal:
+        Structure(**keys)
+    rest = next(p for p in refusal.value.problems if p.where == "sections.tube.5 mm")
+    assert rest.todo == "write numbers with a decimal point, as 2.5 mm: a comma ends a value"
+
+
 def test_a_misspelt_key_is_one_mistake_not_two():
     with pytest.raises(InputError) as refusal:
         Member(nodes=("a", "b"), sektion="s", material="m")

@@ -126,7 +126,12 @@ class Names(frozenset[str]):
 
 
 def suggestion(name: object, known: Iterable[str]) -> str:
-    """Closest known name as ``did you mean 'x'?``; empty where none is close, or too many are known."""
+    """Closest known name as ``did you mean 'x'?``; empty where none is close, or too many are known.
+
+    A name that begins with a digit and has a unit is what a decimal comma leaves of a number.
+    """
+    if re.match(r"\d+ [a-zA-Z]", str(name)):
+        return "write numbers with a decimal point, as 2.5 mm: a comma ends a value"
     names = list(known)
     if len(names) > MOST_COMPARED:
         return ""
