@@ -36,8 +36,11 @@ def test_a_driven_obstacle_at_what_is_locked_crushes_it(index):
     result = solve(index)
     assert result.status is Status.COMPLETE, result.reason
     assert result.energy_residual < 1e-3
-    # frame 116 is met by a plane obliquely at a free end
-    assert {"crushed_contact", "crumpled_end"} & {caution.code for caution in result.cautions}
+    # frame 116 is met by a plane obliquely at a free end; 900 is thrown along its members, which shorten
+    slips = [c.values for name, c in result.channels.items() if name.endswith(".slip.x.plastic_travel")]
+    shortened = max((float(np.abs(slip).max()) for slip in slips), default=0.0)
+    assert (shortened > 1e-3) == (index == 900)
+    assert ("crumpled_end" in {caution.code for caution in result.cautions}) == (index == 116)
 
 
 def test_what_is_driven_beyond_its_limit_ends_before_numbers_lose_their_meaning():

@@ -31,7 +31,7 @@ LOST = 0.25
 """Share of the energy that shows that lengths cannot stay."""
 THROWN = 0.015
 """The same of what is lost because masses are thrown along members that lead to the ground or to others."""
-LIGHT = 1e-4
+LIGHT = 1e-2
 """Share of the masses of members that counts there: what they take, they take without being pressed."""
 HEAVY = 1e3
 """Mass of an obstacle whose motion is prescribed, over that of the structure."""
@@ -94,8 +94,9 @@ def lost_share(structure: StructureParts, *, met: bool = True) -> float:
     energy = float(before @ before)
     if energy == 0.0:
         return 0.0
-    typical = math.sqrt(total / len(moving))
-    scaled = [(row * typical / roots[places], places) for row, places in rows]
+    # what a row holds does not depend on its length
+    scaled = [(row / roots[places], places) for row, places in rows]
+    scaled = [(row / np.linalg.norm(row), places) for row, places in scaled if row.any()]
     lost = before - BED * on_a_bed(scaled, before)
     return float(lost @ lost) / energy
 
