@@ -36,8 +36,10 @@ class ShellResults:
     @property
     def pairs(self) -> tuple[tuple[Measures, Measures], ...]:
         """Runs that differ in the mesh, the two finest ones, and in the imperfection."""
-        if self.coarse is None or self.imperfect is None:
+        if self.imperfect is None:
             return ()
+        if self.coarse is None:
+            return ((self.imperfect, self.nominal),)
         meshes = (self.nominal, self.coarse) if self.fine is None else (self.fine, self.nominal)
         return (meshes, (self.imperfect, self.coarse))
 
