@@ -13,7 +13,7 @@
 //
 // Softening.  One component: its own plastic rotation, largest so far in each sense.  Coupled components: one measure s of the plastic
 // rotation vector e, the work D_0(e) of a proportional rotation to e at the initial capacities.  Each curve is evaluated at s/C_k(0),
-// the rotation about its own axis that would dissipate that work.  `peak`: the largest s so far, both senses together; `rotation`:
+// the rotation about its own axis that would dissipate that work.  A component can have a weight in both (`Component::softens`).  `peak`: the largest s so far, both senses together; `rotation`:
 // the present s; `accumulated`: the sum of s over all increments of e.  What spreads over the member (`Component::spread`) is left out of e.
 #pragma once
 
