@@ -103,6 +103,7 @@ Surface make_surface(const nb::dict& d, int n) {
     s.power = entry<double>(d, "power");
     s.torque_power = entry<double>(d, "torque_power");
     s.torsion = entry<int>(d, "torsion");
+    s.axisymmetric = entry<bool>(d, "axisymmetric");
     s.arm = entry<double>(d, "arm");
     const auto gains = entry<Doubles>(d, "arm_gains"), shares = entry<Doubles>(d, "arm_gain_shares");
     require(gains.size() == shares.size() && gains.size() <= most_arm_gains, "an arm has up to three gains, with a share each");
@@ -113,7 +114,10 @@ Surface make_surface(const nb::dict& d, int n) {
     s.growth = make_shares(entry<Doubles>(d, "growth_rotation"), entry<Doubles>(d, "growth_share"), 1,
                            "shares of the growth of an arm are below 1, at increasing rotations");
     if (s.coupling == Coupling::section) {
-        require(!s.rows.empty() && s.rows.size() % static_cast<size_t>(n) == 0, "rows must have one column per component");
+        require(!s.axisymmetric || (n >= 3 && s.torsion <= n - 3 && s.torsion != 0), "an axisymmetric surface has an axial force and two moments");
+        const int columns = s.axisymmetric ? 2 : n;
+        require(!s.rows.empty() && s.rows.size() % static_cast<size_t>(columns) == 0,
+                "rows must have one column per component, two of an axisymmetric surface");
         require(s.power >= 2 && s.torque_power >= 2, "the powers of a surface are at least 2");
         require(s.torsion >= -1 && s.torsion < n, "the torque is no component");
         for (int k = 0; k < n; k++) {

@@ -21,6 +21,8 @@ constexpr double converged = 1e-15;
 constexpr double value_converged = 1e-9;
 // Bound of g up to which a point is inside whatever the rounding of g itself.
 constexpr double surely_inside = 1 - 1e-9;
+// Moment over g below which the slope over it, which is the curvature there, has too few digits.
+constexpr double no_moment = 1e-7;
 
 // v^p for v >= 0; multiples of one half, which fits use, without the general power, which takes most of the time otherwise
 double to_power(double v, double p) {
@@ -121,6 +123,45 @@ Shape direct_shape(const Surface& s, const double* x, Order order) {
     return out;
 }
 
+// The same of a round tube, whose rows are forms of the axial force and the length of the moment.
+Shape axisymmetric_shape(const Surface& s, int n, const double* x, Order order) {
+    const int first = n - 2;
+    const double* moment = x + first;
+    const double length_of = length(2, moment), plane[2] = {x[0], length_of};
+    const Shape in_plane = direct_shape<2>(s, plane, order);
+    Shape out;
+    out.g = in_plane.g;
+    if (order == Order::value || out.g == 0) return out;
+    double along[2] = {};
+    for (int j = 0; j < 2 && length_of > 0; j++) along[j] = moment[j] / length_of;
+    out.gradient[0] = in_plane.gradient[0];
+    for (int j = 0; j < 2; j++) out.gradient[first + j] = in_plane.gradient[1] * along[j];
+    if (order == Order::gradient) return out;
+    const double radial = in_plane.curvature[1][1], around = length_of > no_moment * out.g ? in_plane.gradient[1] / length_of : radial;
+    out.curvature[0][0] = in_plane.curvature[0][0];
+    for (int j = 0; j < 2; j++) {
+        out.curvature[0][first + j] = out.curvature[first + j][0] = in_plane.curvature[0][1] * along[j];
+        for (int k = 0; k < 2; k++) out.curvature[first + j][first + k] = (radial - around) * along[j] * along[k] + (j == k ? around : 0);
+    }
+    return out;
+}
+
+// Adds the sum of the squares of all rows to a curvature, times a factor.
+void add_squares(const Surface& s, int n, double factor, double curvature[][most]) {
+    const int columns = s.axisymmetric ? 2 : n;
+    for (std::size_t i = 0; i < s.rows.size(); i += static_cast<std::size_t>(columns)) {
+        const double* a = s.rows.data() + i;
+        if (s.axisymmetric) {
+            curvature[0][0] += factor * a[0] * a[0];
+            for (int j = n - 2; j < n; j++) curvature[j][j] += factor * a[1] * a[1];
+            continue;
+        }
+        for (int j = 0; j < n; j++) {
+            for (int k = 0; k < n; k++) curvature[j][k] += factor * a[j] * a[k];
+        }
+    }
+}
+
 // g = (d^r + |t|^r)^(1/r) of the direct part d and the torque t.
 Shape with_torque(const Surface& s, int n, const double* x, const Shape& d, Order order) {
     const double torque = x[s.torsion], r = s.torque_power;
@@ -140,19 +181,14 @@ Shape with_torque(const Surface& s, int n, const double* x, const Shape& d, Orde
         for (int k = 0; k < n; k++) out.curvature[j][k] = dd * d.gradient[j] * d.gradient[k] + by_d * d.curvature[j][k];
     }
     for (int j = 0; j < n; j++) out.curvature[j][s.torsion] = out.curvature[s.torsion][j] = dt * d.gradient[j];
-    if (d.g == 0) {
-        for (std::size_t i = 0; i < s.rows.size(); i += static_cast<std::size_t>(n)) {
-            for (int j = 0; j < n; j++) {
-                for (int k = 0; k < n; k++) out.curvature[j][k] += flat / out.g * s.rows[i + static_cast<std::size_t>(j)] * s.rows[i + static_cast<std::size_t>(k)];
-            }
-        }
-    }
+    if (d.g == 0) add_squares(s, n, flat / out.g, out.curvature);
     out.curvature[s.torsion][s.torsion] = bend * (flat_t - by_t * by_t);
     return out;
 }
 
 Shape shape(const Surface& s, int n, const double* x, Order order) {
-    const Shape direct = n == 1   ? direct_shape<1>(s, x, order)
+    const Shape direct = s.axisymmetric ? axisymmetric_shape(s, n, x, order)
+                         : n == 1   ? direct_shape<1>(s, x, order)
                          : n == 2 ? direct_shape<2>(s, x, order)
                          : n == 3 ? direct_shape<3>(s, x, order)
                                   : direct_shape<4>(s, x, order);

@@ -30,6 +30,8 @@ struct Surface {
     std::vector<double> rows;  // section: (rows, n), a column per component in their order; the torque's column is zero
     double power = 2, torque_power = 2;
     int torsion = -1;          // section: component that is the torque, or -1
+    // section: rows (rows, 2) of the first component and the length of the last two, which are moments about y and z
+    bool axisymmetric = false;
     double arm = 0;              // tension flange: distance of the flange from the centroid [m]
     std::vector<ArmGain> gains;  // tension flange: compression moves the axis of the fold outwards
     hinge::Curve growth;         // tension flange: share of `arm` over the largest plastic rotation so far; empty: 1

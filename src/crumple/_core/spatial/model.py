@@ -162,7 +162,7 @@ class Coupling(IntEnum):
 class SpatialSurface:
     """Surface of interaction; `rows` (k, components), the column of component `torsion` is zero.
 
-    `gains` and `growth` of the arm of a tension flange: see `HingeSurface`.
+    `axisymmetric`, and `gains` and `growth` of the arm of a tension flange: see `HingeSurface`.
     """
 
     coupling: Coupling = Coupling.NONE
@@ -173,6 +173,7 @@ class SpatialSurface:
     arm: float = 0.0
     gains: tuple[tuple[float, float], ...] = ()
     growth: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
+    axisymmetric: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -210,6 +211,7 @@ class SpatialHinge:
             "power": surface.power,
             "torque_power": surface.torque_power,
             "torsion": surface.torsion,
+            "axisymmetric": surface.axisymmetric,
             "arm": surface.arm,
             "arm_gains": [gain for gain, _ in surface.gains],
             "arm_gain_shares": [share for _, share in surface.gains],

@@ -128,7 +128,8 @@ class HingeSurface:
         Kind of surface.
     rows
         Of the section: linear forms a in g^r = (sum |a.x|^p)^(r/p) + |x_torsion|^r, shape (rows, components);
-        the column of the twist is zero.
+        the column of the twist is zero.  Of an axisymmetric one x is the axial force and the resultant of
+        the moments about y and z, shape (rows, 2).
     power, torque_power
         p and r, at least 2.
     torsion
@@ -142,6 +143,8 @@ class HingeSurface:
         Tension flange: largest plastic rotation so far [rad] and share of `arm` [-], below 1; empty: all.
     error
         Largest relative distance between this surface and that of the walls.
+    axisymmetric
+        Section: all axes of bending are alike; the first component is axial, the last two are y and z.
     """
 
     coupling: Coupling = Coupling.NONE
@@ -153,6 +156,7 @@ class HingeSurface:
     gains: tuple[tuple[float, float], ...] = ()
     growth: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
     error: float = 0.0
+    axisymmetric: bool = False
 
     def gauge(self, shares: Floats) -> Floats:
         """Value g of shares of the capacities, shapes (...) and (..., components).
@@ -164,7 +168,10 @@ class HingeSurface:
             return np.asarray(np.abs(x).max(axis=-1))
         if self.coupling is not Coupling.SECTION:
             return np.asarray(np.linalg.norm(x, axis=-1))
-        forms = np.abs(x @ self.rows.T)
+        loads = x
+        if self.axisymmetric:
+            loads = np.stack([x[..., 0], np.hypot(x[..., -2], x[..., -1])], axis=-1)
+        forms = np.abs(loads @ self.rows.T)
         top = np.maximum(forms.max(axis=-1, keepdims=True), 1e-300)
         direct = top[..., 0] * ((forms / top) ** self.power).sum(axis=-1) ** (1.0 / self.power)
         twist = np.abs(x[..., self.torsion]) if self.torsion >= 0 else np.zeros_like(direct)

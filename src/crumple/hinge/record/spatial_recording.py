@@ -95,13 +95,19 @@ def spatial_record(
 def section_surface(components: Sequence[HingeComponent], interaction: InteractionFit) -> HingeSurface:
     """Surface of a section's interaction for the components of a hinge."""
     freedoms = [component.freedom for component in components]
+    axisymmetric = interaction.axisymmetric and {Freedom.Y, Freedom.Z} <= set(freedoms)
+    if axisymmetric and Freedom.AXIAL not in freedoms:
+        return HingeSurface(Coupling.ELLIPSOID, error=interaction.error)
     rows = np.zeros((len(interaction.rows), len(freedoms)))
     for k, component in enumerate(components):
         if component.freedom in COLUMN:
-            rows[:, k] = interaction.rows[:, COLUMN[component.freedom]]
+            resultant = interaction.axisymmetric and component.freedom is Freedom.Z
+            rows[:, k] = interaction.rows[:, COLUMN[Freedom.Y if resultant else component.freedom]]
     for k, component in enumerate(components):
         if component.freedom in COLUMN and not senses_agree(component.record):
             rows = _mirrored(rows, k, interaction.power)
+    if axisymmetric:
+        rows = rows[:, [0, -1]]
     # without the columns of rigid freedoms some rows are equal
     rows = _merged(rows[np.abs(rows).max(axis=1) > 0.0], interaction.power)
     # a load about one axis alone reaches its capacity
@@ -114,6 +120,7 @@ def section_surface(components: Sequence[HingeComponent], interaction: Interacti
         interaction.torque_power,
         freedoms.index(Freedom.X) if Freedom.X in freedoms else -1,
         error=interaction.error,
+        axisymmetric=axisymmetric,
     )
 
 

@@ -134,6 +134,7 @@ def _hinge(joint: int, connection: Connection) -> SpatialHinge:
             surface.arm,
             surface.gains,
             surface.growth,
+            surface.axisymmetric,
         ),
         FORMS[spatial.form],
         SOFTENING[spatial.softening_variable],

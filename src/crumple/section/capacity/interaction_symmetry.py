@@ -8,6 +8,7 @@ so half a turn also means that N may change its sign.
 
 from __future__ import annotations
 
+import math
 from itertools import product
 
 import numpy as np
@@ -17,6 +18,8 @@ from crumple.section.capacity.interaction import PlasticInteraction
 
 SAME = 1e-7
 """Difference of two dissipations, over the largest, that is rounding of the places of the walls."""
+ROUND = 1e-4
+"""The same of a ring, whose wall is drawn by many straight sides."""
 _AWAY = np.array([1.0, 0.31, 0.077])
 """Direction that no image leaves as it is: of all images of a place, the one furthest along it is kept."""
 
@@ -47,6 +50,15 @@ def symmetry(interaction: PlasticInteraction) -> Floats:
     off = np.abs(dissipated - dissipated[0]).max(axis=1)
     same = off <= SAME * dissipated[0].max()
     return np.asarray(_SQUARE[same])
+
+
+def axisymmetric(interaction: PlasticInteraction) -> bool:
+    """Whether moments about all axes are alike, as in a round tube."""
+    angle = np.linspace(0.0, math.pi / 2.0, 8)[:, None]
+    stretch, zero = np.array([0.0, 0.3, 1.0, 3.0]), np.zeros((len(angle), 4))
+    rates = np.stack([stretch + zero, np.cos(angle) + zero, np.sin(angle) + zero, zero], axis=-1)
+    dissipated = interaction.support(rates / interaction.scales)
+    return bool(np.all(np.abs(dissipated - dissipated[0]) <= ROUND * dissipated[0]))
 
 
 def one_of_each(places: Floats, images: Floats) -> Floats:

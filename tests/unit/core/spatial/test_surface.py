@@ -14,12 +14,14 @@ from crumple._core import _kernels
 space = _kernels.spatial
 RNG = np.random.default_rng(3)
 ROWS = np.column_stack([RNG.normal(size=(12, 3)), np.zeros(12)])
+IN_PLANE = np.array([[0.9, 0.8], [0.9, -0.8], [0.3, 1.0], [0.3, -1.0], [1.0, 0.0]])
 
 
-def surface(coupling, rows=None, power=2.0, torque_power=2.0, torsion=-1):
+def surface(coupling, rows=None, power=2.0, torque_power=2.0, torsion=-1, axisymmetric=False):
     flat = [] if rows is None else rows.ravel().tolist()
     return {"coupling": coupling, "rows": flat, "power": power, "torque_power": torque_power} | {
         "torsion": torsion,
+        "axisymmetric": axisymmetric,
         **NO_ARM,
     }
 
@@ -30,6 +32,8 @@ SURFACES = {
     "rows": (surface(SECTION, ROWS[:, :3], 6.0), 3),
     "rows with torque": (surface(SECTION, ROWS, 10.0, 2.5, 3), 4),
     "sharp rows": (surface(SECTION, ROWS, 16.0, 2.0, 3), 4),
+    "round": (surface(SECTION, IN_PLANE, 16.0, axisymmetric=True), 3),
+    "round with torque": (surface(SECTION, IN_PLANE, 16.0, 2.0, 1, axisymmetric=True), 4),
 }
 number = st.floats(-1.0, 1.0).map(lambda v: 0.0 if abs(v) < 1e-3 else v)
 load = st.lists(number, min_size=4, max_size=4).filter(any)
@@ -104,6 +108,24 @@ def test_gauge_is_a_norm_and_its_gradient_is_true():
                 (gauge(constants, a + d)[0] - gauge(constants, a - d)[0]) / 2e-6 for d in np.eye(n) * 1e-6
             ]
             np.testing.assert_allclose(gradient, slope, atol=1e-8)
+
+
+def test_round_surface_is_that_of_the_resultant():
+    """A moment about any axis has the g of the same moment about y, down to none."""
+    (turned, n), plane = SURFACES["round"], surface(SECTION, IN_PLANE, 16.0)
+    for force, moment in ((0.4, 0.7), (1.0, 1e-3), (1.0, 1e-12), (1.0, 0.0), (0.0, 1.0)):
+        for angle in (0.0, 0.3, 2.0, 4.0):
+            about = moment * np.array([np.cos(angle), np.sin(angle)])
+            g, gradient = gauge(turned, [force, *about])
+            flat, slope = gauge(plane, [force, moment])
+            assert g == pytest.approx(flat, rel=1e-14)
+            wanted = [slope[0], slope[1] * np.cos(angle), slope[1] * np.sin(angle)]
+            np.testing.assert_allclose(gradient, wanted, atol=1e-13)
+            # the point nearest to a load outside, where a moment is as small as it likes
+            y = (2.0 * np.array([force, *about])).tolist()
+            x = np.array(space.surface_point(turned, y, [1.0] * n)[0])
+            in_plane = space.surface_point(plane, [2.0 * force, 2.0 * moment], [1.0, 1.0])[0]
+            np.testing.assert_allclose([x[0], np.hypot(*x[1:])], in_plane, atol=1e-12)
 
 
 GAINING = {"arm_gains": [0.3, 0.8], "arm_gain_shares": [0.1, 0.3]}

@@ -122,6 +122,24 @@ def test_rows_of_a_symmetric_section_are_not_doubled(rows):
     np.testing.assert_allclose(record.surface.gauge(x), fit.gauge(own), rtol=1e-12)
 
 
+def test_round_tube_bends_about_all_axes_alike():
+    fit = fitted_interaction(plastic_interaction(CircularTube(0.05, 0.002), STEEL), rows=16)
+    surface = spatial_record(all_four(), interaction=fit).surface
+    assert surface.axisymmetric
+    assert surface.rows.shape[1] == 2
+    x = np.random.default_rng(7).normal(size=(50, 4))
+    turned = np.column_stack([x[:, 0], x[:, 1], np.zeros(50), np.hypot(x[:, 2], x[:, 3])])
+    np.testing.assert_allclose(surface.gauge(x), surface.gauge(turned), rtol=1e-14)
+    # about one axis alone the resultant is the moment about it
+    flat = spatial_record([axial(), bending(Freedom.Z)], interaction=fit).surface
+    assert not flat.axisymmetric
+    np.testing.assert_allclose(
+        flat.gauge(turned[:, [0, 3]]), surface.gauge(turned * [1, 0, 1, 1]), rtol=1e-14
+    )
+    rolled = spatial_record([bending(Freedom.Y), bending(Freedom.Z)], interaction=fit).surface
+    assert rolled.coupling is Coupling.ELLIPSOID
+
+
 def test_equal_rows_are_merged():
     rows = np.array([[0.5, 0.8, 0.1], [-0.5, 0.8, 0.1], [0.5, -0.8, -0.1], [0.2, 0.0, 0.9], [1.0, 0.0, 0.0]])
     fit = InteractionFit(np.ones(4), rows, 6.0)

@@ -17,7 +17,12 @@ from crumple.section import (
     plastic_interaction,
 )
 from crumple.section.capacity.interaction_rows import nonnegative_least_squares, whole_power
-from crumple.section.capacity.interaction_symmetry import multiplicity, symmetry, with_images
+from crumple.section.capacity.interaction_symmetry import (
+    axisymmetric,
+    multiplicity,
+    symmetry,
+    with_images,
+)
 
 MM = 1e-3
 STEEL = Material("steel", 210e9, 0.3, 7850.0, 350e6)
@@ -66,6 +71,34 @@ def test_symmetry_is_that_of_the_walls(name):
     np.testing.assert_array_equal(images[0], np.eye(3))
     found = {tuple(np.diag(image)[1:]) for image in images if np.count_nonzero(np.diag(image)) == 3}
     assert found - {(1.0, 1.0)} == set(signs)
+
+
+def polygon(sides):
+    angle = 2.0 * np.pi * np.arange(sides) / sides
+    return drawn(list(zip(25.0 * np.cos(angle), 25.0 * np.sin(angle), strict=True)), closed=True)
+
+
+def test_round_tubes_alone_are_axisymmetric():
+    interactions = {name: plastic_interaction(section, STEEL) for name, (section, _, _) in CASES.items()}
+    assert [name for name, interaction in interactions.items() if axisymmetric(interaction)] == ["round"]
+    assert not axisymmetric(plastic_interaction(polygon(16), STEEL))
+    # a ring drawn by walls is one
+    assert axisymmetric(plastic_interaction(polygon(96), STEEL))
+
+
+def test_round_tube_has_one_capacity_about_all_axes():
+    fit = fit_of(CircularTube(50 * MM, 2 * MM))
+    forces = FORCES[:20] * fit.scales
+    g, gradient = fit.gauge_and_gradient(forces)
+    for angle in (0.4, 1.0, 2.5):
+        turn = np.eye(4)
+        turn[1:3, 1:3] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+        turned, slope = fit.gauge_and_gradient(forces @ turn.T)
+        # both moments have one scale, but for the sides by which the ring is drawn
+        np.testing.assert_allclose(turned, g, rtol=1e-5)
+        np.testing.assert_allclose(slope * fit.scales, gradient * fit.scales @ turn.T, atol=1e-4)
+    ends = [fit.gauge(forces + s * 1e-7 * fit.scales * np.eye(4)[:, None]) for s in (1.0, -1.0)]
+    np.testing.assert_allclose((gradient * fit.scales).T, (ends[0] - ends[1]) / 2e-7, atol=1e-6)
 
 
 def test_nearly_symmetric_is_not_symmetric():
