@@ -92,7 +92,7 @@ def rate_law(
     error = (alone + effect * other_swept) / other - 1.0
     sentence = (
         f"strain rate {kappa:.3g} times the rotation rate, from the work at {rate:.3g} rad/s; "
-        f"at {other_rate:.3g} rad/s its work differs by {100.0 * error:+.1f} % from that of the sub-model"
+        f"at {other_rate:.3g} rad/s its work differs by {100.0 * error:+z.1f} % from that of the sub-model"
     )
     return HingeRate(pair.D / kappa, pair.q), sentence
 

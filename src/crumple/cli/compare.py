@@ -208,7 +208,7 @@ def _show(found: Comparison, folder: Path, source: LoadedInput | None = None) ->
     from rich.text import Text
 
     from crumple.report import curve_notes
-    from crumple.report.wording.comparison_wording import busy_note, ranked, times_faster
+    from crumple.report.wording.comparison_wording import busy_note, ranked, signed_percent, times_faster
     from crumple.report.wording.law_range import shell_range_sentence
     from crumple.units import format_quantity
 
@@ -229,7 +229,7 @@ def _show(found: Comparison, folder: Path, source: LoadedInput | None = None) ->
         table.add_row(
             escape(hinge.name),
             *(f"{math.degrees(m.rotation_max):.2f}" if m else "-" for m in (hinge.first, hinge.second)),
-            "-" if error is None else f"{100 * error:+.1f} %",
+            signed_percent(error),
             "-" if energy is None else f"{100 * energy:.1f} %",
             "-" if rated is None else f"{rated.overall:.2f}",
         )

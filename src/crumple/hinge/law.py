@@ -21,6 +21,9 @@ from crumple.hinge.rate import HingeRate
 from crumple.hinge.stop import Stop
 from crumple.numeric.arrays import Floats
 
+BEYOND_RANGE = "Use a law from shells that holds there (crumple characterise), or solve with shells."
+"""What to do about a rotation beyond the range of a law."""
+
 
 class SofteningVariable(Enum):
     """Rotation that is the abscissa of the collapse curve, per sense of rotation."""
@@ -81,7 +84,8 @@ class Validity:
         """Warning for a rotation [rad] of the softening variable beyond the range, else None."""
         if rotation <= self.rotation_max:
             return None
-        return f"the hinge turned by {np.degrees(rotation):.1f} deg, its law {self.range_text}"
+        turned = f"{np.degrees(rotation):.1f} deg"
+        return f"the hinge turned by {turned}, its law {self.range_text}. {BEYOND_RANGE}"
 
     @property
     def range_text(self) -> str:

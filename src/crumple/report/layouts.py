@@ -57,7 +57,7 @@ class Layout:
 
     @property
     def absorbed(self) -> float:
-        """Energy dissipated in its hinges [J]; NaN without a result."""
+        """Energy that its structure dissipated [J]; NaN without a result."""
         if self.result is None or "energy.dissipated" not in self.result.channels:
             return float("nan")
         return float(self.result["energy.dissipated"][-1])

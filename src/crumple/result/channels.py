@@ -92,7 +92,12 @@ KINDS = (
         "largest axial force at present if nothing else loads the hinge",
         "MS",
     ),
-    Kind("member.NAME.energy", "J", "energy absorbed by all hinges of a member, and dents in its walls", "M"),
+    Kind(
+        "member.NAME.energy",
+        "J",
+        "energy absorbed by a member: its hinges, what yields between them, and dents in its walls",
+        "M",
+    ),
     Kind(
         "node.NAME.displacement.xyz",
         "m",
@@ -177,7 +182,8 @@ KINDS = (
     Kind(
         "energy.dissipated",
         "J",
-        "energy absorbed by all hinges (multibody), or plastic work of the walls (shells)",
+        "energy absorbed by hinges, what yields between them, and dents (multibody), or plastic work of the "
+        "walls (shells)",
     ),
     Kind(
         "energy.contact",

@@ -11,6 +11,7 @@ from tests.support.result.folded_tube import EXAMPLE, analysis, angle_over_time,
 from crumple.analysis import load, solve
 from crumple.comparison import CurveFile, Signal, Timing, compare, with_frames, with_pictures
 from crumple.comparison.cautions.fold_trust import across_joint, fold_sentences
+from crumple.comparison.measure.metrics import percent, signed
 from crumple.comparison.measure.motion import HingeMotion
 from crumple.comparison.rating.pairing import pairs_of
 from crumple.comparison.solving import mesh_name, with_mesh
@@ -24,7 +25,7 @@ from crumple.comparison.variant import (
     with_measured_laws,
 )
 from crumple.errors import InputError, Status
-from crumple.report.wording.comparison_wording import busy_note, key_figures, speed_table
+from crumple.report.wording.comparison_wording import busy_note, key_figures, signed_percent, speed_table
 from crumple.result import Provenance
 from crumple.structure.hinges.hinges import placed_hinges
 from crumple.structure.hinges.places import hinge_places, law_spec
@@ -348,3 +349,11 @@ def test_a_law_read_off_a_fold_gives_its_moment_back(found, case):
 def test_stored_pictures_are_those_asked_for(multibody):
     kept = with_pictures(multibody, (0.0, 0.05, 0.1))
     assert kept.states.times == pytest.approx([0.0, 0.05, 0.1])
+
+
+@pytest.mark.parametrize(
+    ("error", "text"), [(-4e-4, "0.0 %"), (4e-4, "0.0 %"), (-0.012, "−1.2 %"), (0.05, "+5.0 %")]
+)
+def test_what_is_rounded_to_zero_has_no_sign(error, text):
+    assert signed(error) == signed_percent(error) == text
+    assert percent(-1e-9) == "0.0 %"

@@ -178,13 +178,14 @@ def compared(place: HingeMotion, first: HingeMotion | None, second: HingeMotion 
 
 
 def signed(error: float) -> str:
-    """A relative error in per cent with its sign."""
-    return f"{100 * error:+.1f} %".replace("-", "−")
+    """A relative error in per cent with its sign; what is rounded to zero has none."""
+    text = f"{100 * error:+z.1f} %"
+    return "0.0 %" if text == "+0.0 %" else text.replace("-", "−")
 
 
 def percent(share: float) -> str:
     """A share in per cent."""
-    return f"{100 * share:.1f} %"
+    return f"{100 * share:z.1f} %"
 
 
 def deg(angle: float) -> str:

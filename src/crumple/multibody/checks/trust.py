@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from crumple.hinge import Form, Freedom, SofteningVariable
+from crumple.hinge.law import BEYOND_RANGE
 from crumple.multibody.answer.crush import crush_of
 from crumple.multibody.answer.solved import HingeHistory, Solved, Solver
 from crumple.multibody.bodies.crumpling_ends import crumpling_ends
@@ -280,7 +281,8 @@ def _of_hinge(structure: Structure, history: HingeHistory) -> Iterator[tuple[str
         jammed = law.jamming_angle is not None and turned > law.jamming_angle
         # a closed fold has a caution of its own
         if not jammed and turned > law.validity.rotation_max:
-            yield f"turned by {{turned}} deg; the law {_literal(law.validity.range_text)}", turned
+            limit = _literal(law.validity.range_text)
+            yield f"turned by {{turned}} deg; the law {limit}. {BEYOND_RANGE}", turned
     normal = structure.normal_of(hinge.member)
     if normal is not None and not _bends_both_ways(hinge):
         off = math.degrees(math.acos(min(1.0, abs(float(hinge.direction @ np.asarray(normal))))))

@@ -13,6 +13,7 @@ from crumple.comparison import (
     HingeMetrics,
     Pair,
 )
+from crumple.comparison.measure.metrics import signed
 from crumple.numeric.ranking import largest_first
 from crumple.report.drawing.scales import display_unit
 from crumple.report.wording.wording import Table, degrees, number
@@ -34,7 +35,7 @@ _PARTS = ("corridor", "phase", "magnitude", "slope")
 
 def signed_percent(error: float | None) -> str:
     """A relative error in per cent with its sign, or a dash."""
-    return "—" if error is None or not math.isfinite(error) else f"{100 * error:+.1f} %".replace("-", "−")
+    return "—" if error is None or not math.isfinite(error) else signed(error)
 
 
 def ranked(comparison: Comparison) -> list[HingeComparison]:

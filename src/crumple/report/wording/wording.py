@@ -9,13 +9,27 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from crumple.hinge.law import BEYOND_RANGE
 from crumple.hinge.law_use import INPUT
 from crumple.numeric.ranking import largest_first
 from crumple.report.drawing.scales import display_unit, output_groups
 from crumple.result import HingeSummary, Result
+from crumple.text.names import listed
 
 _DEGREES = math.degrees(1.0)
 _FALL = 0.05  # work of gravity over the largest energy, from which the energy of the fall is tabulated
+
+BEYOND_LAWS = frozenset(
+    {
+        "beyond_jamming",
+        "bottomed_out",
+        "crumpled_end",
+        "crushed_beyond",
+        "deep_dent",
+        "stretched_beyond",
+    }
+)
+"""Cautions that say that a law of a hinge, a crush zone, a dent or a crumpled end left its range."""
 
 
 @dataclass(frozen=True)
@@ -61,10 +75,8 @@ def verdict(result: Result, bound: float | None, accuracy: float | None) -> Verd
     reasons = [_balance(result, bound)]
     if accuracy is not None:
         reasons.append(f"Requested accuracy: {percent(accuracy)}.{_error(result)}")
-    limited = [h for h in result.hinges.values() if h.validity_rotation is not None]
-    if limited and not outside:
-        which = "The hinge" if len(limited) == 1 else f"All {len(limited)} hinges"
-        reasons.append(f"{which} stayed inside the range of validity of the law.")
+    if not outside and not any(caution.code in BEYOND_LAWS for caution in result.cautions):
+        reasons += _inside(result)
     if not result.status.ok:
         headline = sentence_case(result.status.value)
         if result.reason:
@@ -73,6 +85,20 @@ def verdict(result: Result, bound: float | None, accuracy: float | None) -> Verd
     if warnings:
         return Verdict("caution", "Complete, with reservations.", tuple(reasons), warnings)
     return Verdict("good", "Complete.", tuple(reasons), ())
+
+
+def _inside(result: Result) -> list[str]:
+    """One sentence on all laws with a range, whose limits were not passed; none without such a law."""
+    numbers = {
+        "hinge": sum(hinge.validity_rotation is not None for hinge in result.hinges.values()),
+        "crush zone": sum(
+            hinge.crush is not None and hinge.crush.stroke is not None for hinge in result.hinges.values()
+        ),
+        "dent": len(result.dents),
+        "crumpled end": len(result.crumpled_ends),
+    }
+    of = listed(f"{number} {what}{'s' if number > 1 else ''}" for what, number in numbers.items() if number)
+    return [f"All laws stayed inside their ranges of validity: those of {of}."] if of else []
 
 
 def _tells_of_range(warning: str, hinge: str) -> bool:
@@ -92,8 +118,11 @@ def outside_range(result: Result, name: str) -> str:
     if limit is None or not reached > limit:
         return ""
     if limit <= 0.0:
-        return f"Hinge {name} turned {angle(reached)}; its law has no range of validity."
-    return f"Hinge {name} turned {angle(reached)}, beyond the range of validity of its law, {angle(limit)}."
+        return f"Hinge {name} turned {angle(reached)}; its law has no range of validity. {BEYOND_RANGE}"
+    return (
+        f"Hinge {name} turned {angle(reached)}, beyond the range of validity of its law, {angle(limit)}. "
+        f"{BEYOND_RANGE}"
+    )
 
 
 def _judged_rotation(hinge: HingeSummary) -> float:
@@ -135,10 +164,10 @@ def hinge_table(result: Result) -> Table:
     _, final_degrees = column([h.rotation_final * _DEGREES for h in hinges], "1")
     _, final = column([h.rotation_final for h in hinges], "1")
     time_unit, rests = column([math.nan if h.time_of_rest is None else h.time_of_rest for h in hinges], "s")
-    shares = [f"{100 * h.energy / total:.1f} %" if total > 0 else "—" for h in hinges]
+    shares = [f"{100 * h.energy / total:z.1f} %" if total > 0 else "—" for h in hinges]
     heads = (
         "Hinge", "Largest rotation, deg", "rad", "Final rotation, deg", "rad", f"At rest after, {time_unit}",
-        f"Energy absorbed, {energy_unit}", "Share", f"Peak moment, {moment_unit}",
+        f"Energy absorbed, {energy_unit}", "Share of hinges", f"Peak moment, {moment_unit}",
     )  # fmt: skip
     rows = list(
         zip(
@@ -227,7 +256,7 @@ def fall_table(result: Result) -> Table:
     rows = [("M g Δh, from the highest position of the centre of mass to the end", fall)]
     rows += [("0.75 M g Δh, the reference energy of UN R66 for calculations", 0.75 * fall)]
     taken = {
-        "Absorbed by hinges": "energy.dissipated",
+        "Absorbed by the structure": "energy.dissipated",
         "By contact": "energy.contact",
         "By friction": "energy.friction",
         "Kinetic at the end": "energy.kinetic",

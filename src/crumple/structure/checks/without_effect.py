@@ -1,4 +1,4 @@
-"""What an input gives and what moves nothing: velocities of nodes without mass, loads on what supports hold.
+"""What an input gives without effect: velocities of nodes without mass, held loads, one of two stresses.
 
 Nothing is refused for them.  `nodes` of an initial velocity names lumped masses, and a node without one has
 nothing to throw.  A load acts if one of its components that is not zero during the run lies along a freedom
@@ -10,21 +10,26 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from crumple.function import TimeFunction
+from crumple.material.material import FOLD_STRAIN
 from crumple.structure.checks.unusual import Unusual
 from crumple.structure.keys.load import Load
 from crumple.structure.keys.motion import InitialVelocity
 from crumple.structure.keys.stages import Stage
 from crumple.structure.parts import StructureParts
 from crumple.text.names import listed
+from crumple.units import format_quantity
 
 MOST_NAMED = 4
 """Nodes that a sentence names."""
+APART = 0.05
+"""Flow stress over that of the hardening curve, less one, beyond which both are named: moments differ as
+much."""
 
 
 def without_effect(
     structure: StructureParts, duration: float, stages: Sequence[Stage] = ()
 ) -> Iterator[Unusual]:
-    """One sentence for all nodes without mass that are thrown, one for all loads that supports take.
+    """Sentences: all nodes without mass that are thrown, metals with two flow stresses, loads on supports.
 
     Parameters
     ----------
@@ -50,6 +55,7 @@ def without_effect(
             "and nothing moves there. Name 'members' to throw members, or give a mass.",
             "thrown_without_mass",
         )
+    yield from _flow_stresses(structure)
     longest = max((stage.duration for stage in stages), default=duration)
     held = [load for load in structure.loads if load_is_held(structure, load, longest)]
     if held:
@@ -66,6 +72,28 @@ def without_effect(
             "Move them to another node, or free this direction.",
             "held_load",
         )
+
+
+def _flow_stresses(structure: StructureParts) -> Iterator[Unusual]:
+    """A sentence for every metal whose flow stress is not that of its hardening curve."""
+    for name in dict.fromkeys(member.material for member in structure.members.values()):
+        spec = structure.materials[name]
+        if spec.flow_stress is None or spec.hardening is None:
+            continue
+        of_curve = float(spec.hardening.curve(spec.yield_stress).stress(FOLD_STRAIN))
+        if abs(spec.flow_stress / of_curve - 1.0) > APART:
+            given, curve = (format_quantity(stress, "Pa") for stress in (spec.flow_stress, of_curve))
+            yield Unusual(
+                f"materials.{name}.flow_stress",
+                spec.flow_stress,
+                of_curve,
+                "Pa",
+                f"Material {name} has both flow_stress, {given}, and hardening, {curve} at a plastic strain "
+                f"of {FOLD_STRAIN:g}: shells and the laws that hinges have by themselves follow the curve; "
+                "formulas with one stress (crushing, dents, and laws such as kecman) take the flow_stress. "
+                "Remove one of them.",
+                "two_flow_stresses",
+            )
 
 
 def massless_nodes(structure: StructureParts, field: InitialVelocity) -> list[str]:

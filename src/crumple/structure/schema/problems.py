@@ -59,6 +59,8 @@ def placed_problems(
         if context.get("key") and isinstance(value, Mapping):
             value = value.get(context["key"])
         problem = _problem(str(details["type"]), details["msg"], value, context, place, keys)
+        if keys and (types := _types_with(model, details["loc"])):
+            problem = replace(problem, todo=f"remove it, or choose type {' or '.join(types)}, which has it")
         if details["type"] == "missing" and place and isinstance(place[-1], int):
             # every missing entry is reported separately; the last one gives the required number
             short[place[:-1]] = (place[:-1], _too_short(value, place))
@@ -272,6 +274,16 @@ def _tagged(kind: Any, tag: str) -> list[Any]:
     if get_origin(kind) in {Annotated, Union, UnionType}:
         return [found for argument in arguments for found in _tagged(argument, tag)]
     return []
+
+
+def _types_with(model: type[BaseModel] | None, place: Place) -> list[str]:
+    """Types of a part, as its key ``type`` names them, that have the key at the end of a path."""
+    if len(place) < 2 or not _TAG.match(str(place[-2])):
+        return []
+    reached: list[Any] = [model]
+    for part in place[:-2]:
+        reached = [deeper for kind in reached for deeper in _below(kind, part)]
+    return [_TAG.findall(_tag_of(kind))[0] for kind in _models(reached) if place[-1] in kind.model_fields]
 
 
 def _tag_of(model: type[BaseModel]) -> str:

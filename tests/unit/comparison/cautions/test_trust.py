@@ -107,7 +107,7 @@ def test_a_largest_rotation_does_not_hide_its_plastic_part():
     )
     ((message, wrong),) = agreement(comparison)
     assert wrong
-    assert "28.6° shell (+0.0 %), of which plastic 28.6° and 22.9° (+25.0 %); plastic energy" in message
+    assert "28.6° shell (0.0 %), of which plastic 28.6° and 22.9° (+25.0 %); plastic energy" in message
 
 
 def test_hinges_in_one_fold_are_reported_with_their_total_rotation():

@@ -190,7 +190,7 @@ def test_the_page_and_the_command_show_both_values_and_what_is_beyond_its_target
     shown = compared(replace(OWN, impulse={"pole": 90.0}))
     table = contact_table(shown)
     assert ("pole: impulse", "90 N s", "100 N s", "−10.0 %, beyond its target", "5 %") in table.rows
-    assert ("pole: dissipation at contact", "200 J", "200 J", "+0.0 %", "20 %") in table.rows
+    assert ("pole: dissipation at contact", "200 J", "200 J", "0.0 %", "20 %") in table.rows
     assert ("Taken by contact", "—", "—", "—", "—") in table.rows
     lines = [render(line).plain for line in _contact_lines(shown)]
     assert lines == [

@@ -60,6 +60,8 @@ def test_the_snap_is_reported_with_both_energies(result):
     fall, prescribed = (float(row[1].replace("−", "-")) for row in table.rows[:2])
     assert fall == pytest.approx(result["energy.gravity"][-1], rel=1e-3)
     assert prescribed == pytest.approx(0.75 * fall, rel=1e-3)
+    # not of hinges alone: what yields between them and dents are in it
+    assert table.rows[2][0] == "Absorbed by the structure"
 
 
 def test_wrong_clearances_are_refused():

@@ -9,9 +9,11 @@ from tests.support.result.synthetic_frame import frame_result
 from tests.support.result.synthetic_tube import tube_result
 
 from crumple.errors import Status
+from crumple.hinge.law import BEYOND_RANGE
 from crumple.report.drawing.scales import display_unit, output_groups, pretty_unit, spread, thinned, time_unit
 from crumple.report.wording.key_figures import key_figures
 from crumple.report.wording.wording import (
+    BEYOND_LAWS,
     angle,
     column,
     hinge_table,
@@ -21,7 +23,7 @@ from crumple.report.wording.wording import (
     percent,
     verdict,
 )
-from crumple.result import Channel
+from crumple.result import Caution, Channel, CrumpledEnd, CrushSummary, DentedWall
 
 
 @pytest.mark.parametrize(
@@ -65,15 +67,54 @@ def test_verdict_good():
     assert (message.level, message.headline) == ("good", "Complete.")
     assert message.warnings == ()
     assert "within its bound of 0.1 %" in message.reasons[0]
-    assert "stayed inside the range" in message.reasons[-1]
+    assert message.reasons[-1] == "All laws stayed inside their ranges of validity: those of 1 hinge."
+
+
+CRUSH = CrushSummary(
+    length=0.1,
+    length_final=0.1,
+    peak_force=1e5,
+    mean_force=5e4,
+    energy=5e3,
+    stroke=0.15,
+    efficiency=0.5,
+    bottomed_out=False,
+)
+
+
+def test_verdict_speaks_of_the_laws_of_crushing_dents_and_ends():
+    plain = tube_result()
+    hinges = {name: replace(hinge, crush=CRUSH) for name, hinge in plain.hinges.items()}
+    dents = (DentedWall("m", 0.1, "pole", 0.01, 5.0),) * 2
+    ends = (CrumpledEnd("m", "n", "wall", 0.02, 7.0),)
+    result = replace(plain, hinges=hinges, dents=dents, crumpled_ends=ends)
+    told = "those of 1 hinge, 1 crush zone, 2 dents, 1 crumpled end."
+    assert verdict(result, 1e-3, None).reasons[-1].endswith(told)
+
+
+@pytest.mark.parametrize("code", sorted(BEYOND_LAWS))
+def test_no_law_is_called_inside_if_one_was_passed(code):
+    passed = Caution(code, 2.0, 1.0, "m", "member m", "A dent is deep.")
+    reasons = verdict(replace(tube_result(), cautions=(passed,)), 1e-3, None).reasons
+    assert not any("inside" in reason for reason in reasons)
+
+
+def test_hinge_table_has_no_negative_zero():
+    result = frame_result()
+    energies = dict(zip(result.hinges, (1.0, 1.0, 1.0, -1e-9), strict=True))
+    hinges = {name: replace(result.hinges[name], energy=energy) for name, energy in energies.items()}
+    shares = [row[7] for row in hinge_table(replace(result, hinges=hinges)).rows]
+    assert shares == ["33.3 %"] * 3 + ["0.0 %"]
 
 
 def test_verdict_cautions_outside_the_range_once():
     message = verdict(frame_result(), 1e-3, None)
     assert message.level == "caution"
     assert message.warnings == (
-        "Hinge h0 turned 28.65° (0.5000 rad), beyond the range of validity of its law, 11.46° (0.2000 rad).",
-        "Hinge h1 turned 24.35° (0.4250 rad), beyond the range of validity of its law, 20.05° (0.3500 rad).",
+        "Hinge h0 turned 28.65° (0.5000 rad), beyond the range of validity of its law, 11.46° (0.2000 rad). "
+        f"{BEYOND_RANGE}",
+        "Hinge h1 turned 24.35° (0.4250 rad), beyond the range of validity of its law, 20.05° (0.3500 rad). "
+        f"{BEYOND_RANGE}",
     )
     reported = frame_result(warnings=("Hinge h0 turned by 28.6 deg; its law is valid up to 11.5 deg only.",))
     assert len(verdict(reported, 1e-3, None).warnings) == 2
@@ -91,7 +132,7 @@ def test_a_law_without_a_range_is_not_called_valid_up_to_zero():
         for name, hinge in result.hinges.items()
     }
     first = verdict(replace(result, hinges=hinges), 1e-3, None).warnings[0]
-    assert first == "Hinge h0 turned 28.65° (0.5000 rad); its law has no range of validity."
+    assert first == "Hinge h0 turned 28.65° (0.5000 rad); its law has no range of validity. " + BEYOND_RANGE
     said = "Hinges h0, h1: turned by 28.6 deg; the law has no range of validity (estimate)"
     assert len(verdict(replace(result, hinges=hinges, warnings=(said,)), 1e-3, None).warnings) == 1
 

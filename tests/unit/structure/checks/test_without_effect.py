@@ -70,6 +70,18 @@ def test_the_sentences():
     )
 
 
+def test_a_flow_stress_beside_a_hardening_curve_is_named():
+    keys = "yield_stress: 350 MPa"
+    both = f"{keys}, flow_stress: 600 MPa, hardening: {{type: voce, saturation: 100 MPa, strain: 0.05}}"
+    text = BAR.replace(keys, both) + ACTS["velocity"]
+    (one,) = said(text)
+    assert one.code == "two_flow_stresses"
+    assert "flow_stress, 600 MPa, and hardening, 436.5 MPa at a plastic strain of 0.1" in one.text
+    assert one.text.endswith("Remove one of them.")
+    assert said(text.replace("600 MPa", "440 MPa")) == ()
+    assert said(BAR.replace(keys, f"{keys}, flow_stress: 600 MPa") + ACTS["velocity"]) == ()
+
+
 def test_a_stage_throws_a_node_without_mass():
     stages = f"{{stages: [{{name: p, duration: 20 ms, initial_velocity: [{{nodes: [b], {UP}}}]}}]}}"
     codes = [one.code for one in said(BAR.replace("{duration: 20 ms}", stages))]

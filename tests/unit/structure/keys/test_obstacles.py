@@ -36,6 +36,16 @@ def test_pole_with_a_length_has_round_ends():
     assert gap(ball, np.array([0.0, 0.0, 0.0])) == pytest.approx(0.75)
 
 
+def test_a_key_of_another_type_is_refused_with_the_type_that_has_it():
+    with pytest.raises(InputError) as refused:
+        Structure(obstacles={"ball": {**BALL, "axis": (0, 1, 0)}})
+    (problem,) = [one for one in refused.value.problems if one.where == "obstacles.ball.axis"]
+    assert problem.what == "unknown key 'axis'"
+    assert problem.todo == "remove it, or choose type cylinder, which has it"
+    with pytest.raises(InputError, match="did you mean 'radius'"):
+        Structure(obstacles={"ball": {**BALL, "radios": 1.0}})
+
+
 def test_mass_moves_along_its_guide_else_its_velocity_else_across_the_plane():
     def guide(**keys):
         return PlaneObstacle(point=(0, 0, 0), normal=(0, 0, 2), mass=5.0, **keys).guide_direction
