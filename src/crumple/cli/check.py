@@ -48,6 +48,7 @@ def _check_input(file: Path, fidelity: Fidelity) -> None:
     from crumple.analysis import load_input
     from crumple.errors import InputError
     from crumple.structure.checks.doubtful import input_doubts
+    from crumple.structure.checks.never_met import never_met
     from crumple.structure.checks.section_axes import turned_posts
 
     source = load_input(file)
@@ -59,12 +60,18 @@ def _check_input(file: Path, fidelity: Fidelity) -> None:
     doubts = input_doubts(source.analysis.structure, source.analysis.duration, source.analysis.stages)
     for text in dict.fromkeys(one.text for one in doubts):
         typer.echo(f"  Caution: {text}")
+    if not source.analysis.stages:
+        for text in never_met(source.analysis.structure, source.analysis.duration):
+            typer.echo(f"  Caution: {text}")
     turned = turned_posts(source.analysis.structure)
     if turned:
         typer.echo(f"  {turned}")
     for solver in fidelity.solvers:
         notes = (_shell_notes if solver is Fidelity.SHELL else _multibody_notes)(source.analysis)
         for note in notes:
+            typer.echo(f"  {note}")
+    if fidelity is Fidelity.MULTIBODY:
+        for note in _coarse_shells(source.analysis):
             typer.echo(f"  {note}")
 
 
@@ -113,6 +120,15 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
         yield from (f"Caution: {text}" for text in swept_supports(structure, analysis.duration))
     yield from (f"Caution: {text}" for text in obstacle_overlap_warnings(structure, analysis.stages))
     yield from (f"Caution: {text}" for text in dict.fromkeys(one.text for one in section_doubts(structure)))
+
+
+def _coarse_shells(analysis: Analysis) -> Iterator[str]:
+    """The warning of shells too long for folds, where the file has settings of the shell solver."""
+    if analysis.shell.model_fields_set:
+        from crumple.shell.checks.folds import coarse_settings
+
+        for warning in coarse_settings(analysis.structure, analysis.shell):
+            yield f"Warning for --fidelity shell: {warning}"
 
 
 def _shell_notes(analysis: Analysis) -> Iterator[str]:

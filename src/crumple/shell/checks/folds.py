@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
 from crumple.section import half_fold_length
 from crumple.shell.mesh.mesh import Mesh
-from crumple.structure import Structure, hinge_places
+from crumple.structure import ShellSettings, Structure, hinge_places
 from crumple.text.names import listed
 
 LEAST_ELEMENTS = 4.0
@@ -30,8 +30,24 @@ def coarse_folds(structure: Structure, mesh: Mesh) -> Iterator[str]:
         half = half_fold_length(structure.section_of(place.member), place.axis)
         inside = (tube.stations[1:] > place.station - half) & (tube.stations[:-1] < place.station + half)
         lengths = np.diff(tube.stations)[inside]
-        if lengths.size and (count := half / float(lengths.max())) < LEAST_ELEMENTS:
+        if lengths.size:
+            count = half / float(lengths.max())
             found[place.member] = min(count, found.get(place.member, count))
+    yield from _too_few(structure, found)
+
+
+def coarse_settings(structure: Structure, settings: ShellSettings) -> Iterator[str]:
+    """The same warning by the settings alone, without a mesh, whose elements may be a little longer."""
+    size, found = settings.fine_size or settings.element_size, dict[str, float]()
+    for place in hinge_places(structure):
+        count = half_fold_length(structure.section_of(place.member), place.axis) / size
+        found[place.member] = min(count, found.get(place.member, count))
+    yield from _too_few(structure, found)
+
+
+def _too_few(structure: Structure, counts: Mapping[str, float]) -> Iterator[str]:
+    """The warning, by the number of elements along half a fold of each member."""
+    found = {member: count for member, count in counts.items() if count < LEAST_ELEMENTS}
     if found:
         size = min(
             half_fold_length(structure.section_of(place.member), place.axis)

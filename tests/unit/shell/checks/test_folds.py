@@ -7,7 +7,7 @@ import re
 import pytest
 
 from crumple.analysis import loads
-from crumple.shell.checks.folds import coarse_folds
+from crumple.shell.checks.folds import coarse_folds, coarse_settings
 from crumple.shell.mesh.mesh import mesh_of
 
 TUBE = """crumple: 1
@@ -28,6 +28,7 @@ def test_elements_longer_than_a_quarter_of_half_a_fold_are_warned_of(size, warne
     structure = analysis.structure
     found = list(coarse_folds(structure, mesh_of(structure, analysis.shell)))
     assert bool(found) == warned
+    assert bool(list(coarse_settings(structure, analysis.shell))) == warned
     if warned:
         assert "of member tube." in found[0]
 
