@@ -227,6 +227,10 @@ def parse_quantity(text: str, unit: str) -> float:
 @lru_cache(8192)
 def _parsed(text: str, unit: str) -> float:
     match = _QUANTITY.fullmatch(text.strip())
+    if match is None and "\N{MINUS SIGN}" in text:
+        raise _refusal("this minus is a typographic sign: write '-'", text, unit)
+    if match is not None and match["unit"].startswith(","):
+        raise _refusal("this number has a comma: write a decimal point, and no separators", text, unit)
     if match is None:
         raise _refusal("this is not a number with a unit", text, unit)
     number, unit_text = match["number"], match["unit"].strip()

@@ -53,7 +53,8 @@ class Settings(Spec):
     @model_validator(mode="after")
     def _one_duration(self) -> Settings:
         if self.duration is None and not self.stages:
-            refuse("the duration is missing", key="duration", allowed="a time, for example 100 ms")
+            todo = "add 'duration', or stages"
+            refuse("the duration is missing", key="duration", allowed="a time, for example 100 ms", todo=todo)
         if self.duration is not None and self.stages:
             refuse("the stages have their own durations", key="duration", todo="remove it")
         return self

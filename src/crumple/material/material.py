@@ -9,6 +9,7 @@ from crumple.errors import InputError, Problem
 from crumple.material.hardening.curve import HardeningCurve
 from crumple.material.rate import RateLaw
 from crumple.registry.quantity import texts_to_si
+from crumple.units import format_quantity
 
 UNITS = {
     "youngs_modulus": "Pa",
@@ -134,7 +135,7 @@ def _inconsistent(material: Material) -> list[Problem]:
         problems.append(
             Problem(
                 "the yield stress is not below Young's modulus",
-                f"{material.yield_stress:g} Pa with E = {material.youngs_modulus:g} Pa",
+                f"{_pascals(material.yield_stress)} with E = {_pascals(material.youngs_modulus)}",
                 "a yield strain well below 1",
                 "check the units of both (MPa, GPa)",
                 "yield_stress",
@@ -144,7 +145,7 @@ def _inconsistent(material: Material) -> list[Problem]:
         problems.append(
             Problem(
                 "the ultimate stress is below the yield stress",
-                f"{material.ultimate_stress:g} Pa with yield {material.yield_stress:g} Pa",
+                f"{_pascals(material.ultimate_stress)} with yield {_pascals(material.yield_stress)}",
                 "ultimate >= yield",
                 "exchange the two, or leave the ultimate stress out",
                 "ultimate_stress",
@@ -156,10 +157,15 @@ def _inconsistent(material: Material) -> list[Problem]:
         problems.append(
             Problem(
                 "the hardening curve does not begin at the yield stress",
-                f"{curve.yield_stress:g} Pa",
-                f"{material.yield_stress:g} Pa",
+                _pascals(curve.yield_stress),
+                _pascals(material.yield_stress),
                 "give both the same yield stress",
                 "hardening",
             )
         )
     return problems
+
+
+def _pascals(stress: float) -> str:
+    """A stress [Pa] in a readable unit."""
+    return format_quantity(stress, "Pa", 6)

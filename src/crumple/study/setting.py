@@ -113,6 +113,10 @@ def setting_for(
         unit, where = units[limit.response], f"constraints.{i}"
         low = -np.inf if limit.at_least is None else number(limit.at_least, unit, f"{where}.at_least")
         high = np.inf if limit.at_most is None else number(limit.at_most, unit, f"{where}.at_most")
+        if low > high:
+            what, todo = "no value is within both limits", "correct one of them"
+            came = f"at_least {limit.at_least}, at_most {limit.at_most}"
+            raise InputError(Problem(what, came, "at_least below at_most", todo, where))
         limits.append((limit.response, low, high))
     reserve = 0.0 if study.verify is None else study.verify.reserve
     fast = [(name, _clear(low, reserve), _clear(high, -reserve)) for name, low, high in limits]

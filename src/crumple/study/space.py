@@ -108,10 +108,17 @@ def axes_of(study: Study, document: object | None) -> list[Axis]:
         If a quantity has another dimension than in the base input, or a distribution is not one.
     """
     problems: list[Problem] = []
-    axes = []
+    axes: list[Axis] = []
     for name, variable in study.variables.items():
         try:
-            axes.append(_axis(name, variable, document))
+            axis = _axis(name, variable, document)
+            # factors, which have no unit, multiply each other
+            shared = [one.name for one in axes if axis.unit != "1" and {*one.places} & {*axis.places}]
+            if shared:
+                what, todo = f"the variable '{shared[0]}' varies the same path", "remove one of them"
+                came = ", ".join(variable.places)
+                raise InputError(Problem(what, came, "a path of its own", todo, f"variables.{name}"))
+            axes.append(axis)
         except InputError as error:
             problems += error.problems
     if problems:
@@ -141,6 +148,9 @@ def _axis(name: str, variable: Variable, document: object | None) -> Axis:
         what, todo = "this path leads to no number of the base input", "correct it, or list 'values'"
         raise InputError(Problem(what, ", ".join(variable.places), "the path of a quantity", todo, where))
     low, high = given(variable.low, "low"), given(variable.high, "high")
+    if values and not (low is None and high is None):
+        what, todo = "a variable has a range or values", "keep low and high, or values"
+        raise InputError(Problem(what, f"{variable.low} to {variable.high}, and values", "", todo, where))
     if low is not None and high is not None and not low < high:
         what, came = "low must be below high", f"{variable.low} to {variable.high}"
         raise InputError(Problem(what, came, "", "correct one of them", where))

@@ -18,6 +18,7 @@ from crumple.structure import (
     Structure,
     Support,
 )
+from crumple.structure.schema.problems import DECIMAL_POINT
 
 
 def test_quantities_with_units_and_plain_si_numbers_are_one(keys):
@@ -124,7 +125,24 @@ def test_what_a_decimal_comma_leaves_of_a_number_is_named(keys):
     with pytest.raises(InputError) as refusal:
         Structure(**keys)
     rest = next(p for p in refusal.value.problems if p.where == "sections.tube.5 mm")
-    assert rest.todo == "write numbers with a decimal point, as 2.5 mm: a comma ends a value"
+    assert rest.todo == DECIMAL_POINT
+
+
+def test_commas_in_lists_and_words_that_begin_with_a_number(keys):
+    # tip: [0,5 m, 0 m, 0 m]
+    node = next(iter(keys["nodes"]))
+    keys["nodes"][node] = [0, "5 m", "0 m", "0 m"]
+    with pytest.raises(InputError) as refusal:
+        Structure(**keys)
+    assert next(p for p in refusal.value.problems if p.where == f"nodes.{node}").todo == DECIMAL_POINT
+    keys["nodes"][node] = ["1 m", "5 m", "0 m", "0 m"]
+    with pytest.raises(InputError, match="remove what is too much"):
+        Structure(**keys)
+    keys["nodes"][node] = ["1 m", "0 m", "0 m"]
+    keys["hinge_laws"] = {"k": {"type": "kecman", "stops": "30 deg"}}
+    with pytest.raises(InputError) as refusal:
+        Structure(**keys)
+    assert "decimal point" not in str(refusal.value)
 
 
 def test_a_misspelt_key_is_one_mistake_not_two():
@@ -192,3 +210,14 @@ def test_the_smallest_step_is_below_the_largest():
     with pytest.raises(InputError, match="the smallest time step is above the largest"):
         MultibodySettings(minimum_time_step=1e-2)
     assert MultibodySettings(minimum_time_step=1e-4, maximum_time_step=1e-4).maximum_time_step == 1e-4
+
+
+def test_contradictory_keys_and_fields_that_move_nothing_are_refused(keys):
+    name = next(iter(keys["members"]))
+    keys["members"][name] |= {"rigid": True, "elastic": True}
+    keys["initial_velocity"] = [{"nodes": [], "translation": (0.0, 0.0, 1.0)}]
+    with pytest.raises(InputError) as refusal:
+        Structure(**keys)
+    found = {problem.where: problem.what for problem in refusal.value.problems}
+    assert found[f"members.{name}.elastic"] == "the member is rigid and elastic"
+    assert found["initial_velocity[0].nodes"] == "it moves nothing"

@@ -258,3 +258,16 @@ def test_common_units_need_no_pint() -> None:
         "assert 'pint' not in sys.modules and 'numpy' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("2,5 mm", "write a decimal point"),
+        ("1,500 m", "no separators"),
+        ("−8 m", "this minus is a typographic sign"),
+    ],
+)
+def test_commas_and_signs_of_texts_are_named(text, said):
+    with pytest.raises(QuantityError, match=said):
+        parse_quantity(text, "m")

@@ -69,7 +69,7 @@ def read_table(text: str, file: str = "", columns: tuple[Column, Column] = BENDI
     ]
     if not lines:
         todo = "write a header such as 'rotation [deg], moment [kN*m]' and the points under it"
-        raise InputError(Problem("the table is empty", todo=todo, file=file))
+        raise InputError(Problem("the table is empty", todo=todo, file=file, line=1))
     head_line, head = lines[0]
     separator = max(",;\t", key=head.count)
     places = [_column(head.split(separator), column, file, head_line) for column in columns]

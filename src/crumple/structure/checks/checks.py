@@ -29,6 +29,7 @@ from crumple.structure.keys.outputs import Outputs
 from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import Names, one_of, outside, shown, suggestion, unknown
 from crumple.structure.settings.shell_settings import ShellSettings
+from crumple.units import format_quantity
 
 COINCIDENT = 1e-6
 """Distance [m] below which two nodes are one place: a thousandth of a wall, far above rounding."""
@@ -279,7 +280,8 @@ def _supports(structure: StructureParts, known: Known) -> Iterator[Problem]:
             if abs(start) > JUMP:
                 where, todo = f"supports.{name}.motion.{freedom}", "let it start from 0"
                 what = "the prescribed motion starts with a jump"
-                yield Problem(what, f"{start:g}", "0 at the start", todo, where)
+                came = format_quantity(start, "rad" if freedom.startswith("r") else "m")
+                yield Problem(what, came, "0 at the start", todo, where)
 
 
 _CHECKS: tuple[Callable[[StructureParts, Known], Iterator[Problem]], ...] = (

@@ -13,6 +13,7 @@ from crumple.structure.keys.obstacles import Obstacle, gap
 from crumple.structure.keys.stages import Stage, Until
 from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import Names, unknown
+from crumple.units import format_quantity
 
 JUMP = 1e-12
 """Prescribed displacement [m] or rotation [rad] at the start that is still rounding."""
@@ -37,7 +38,8 @@ def obstacle_problems(structure: StructureParts, known: Mapping[str, Names]) -> 
             start = float(function(0.0))
             if abs(start) > JUMP:
                 what, todo = "the prescribed motion starts with a jump", "let it start from 0"
-                yield Problem(what, f"{start:g}", "0 at the start", todo, f"{where}.{key}")
+                came = format_quantity(start, "rad" if key == "turning.angle" else "m")
+                yield Problem(what, came, "0 at the start", todo, f"{where}.{key}")
         nodes = _touching_nodes(structure, obstacle)
         gaps = gap(obstacle, np.array([structure.nodes[node] for node in nodes], float).reshape(-1, 3))
         for i in np.flatnonzero(gaps < -INSIDE).tolist():

@@ -186,6 +186,7 @@ USUAL = (
     Usual("the flow stress of a metal", "Pa", 1e6, 5e9, _material("flow_stress")),
     Usual("the flow stress over the yield stress", "1", 0.9, 10.0, _flow_ratios, " of the yield stress"),
     Usual("the largest plastic strain of a hardening curve", "1", 0.0, 3.0, _plastic_strains),
+    Usual("the plastic strain at which a metal tears", "1", 0.0, 3.0, _material("failure_strain")),
     Usual("the stress at a strain rate of 100/s", "1", 1.0, 10.0, _rate_factors, " times as strong at 100/s"),
     Usual("the density of a metal", "kg/m^3", 500.0, 25e3, _material("density")),
     Usual("the wall thickness of a thin-walled section", "m", 2e-5, 0.1, _thicknesses),

@@ -293,3 +293,9 @@ class Member(Spec):
         if up is not None and not any(up):
             refuse("the direction is zero", allowed="a direction such as [0, 0, 1]")
         return up
+
+    @model_validator(mode="after")
+    def _not_rigid_and_elastic(self) -> Member:
+        if self.rigid is True and self.elastic:
+            refuse("the member is rigid and elastic", key="elastic", todo="remove 'rigid' or 'elastic'")
+        return self

@@ -128,6 +128,9 @@ class InitialVelocity(Spec):
     def _complete(self) -> InitialVelocity:
         if self.axis is not None and not any(self.axis):
             refuse("the axis is zero", key="axis", allowed="a direction such as [0, -1, 0]")
+        if not self.everywhere and not (self.nodes or self.members):
+            todo = "name nodes or members, or remove the key for the whole structure"
+            refuse("it moves nothing", key="members" if self.nodes is None else "nodes", todo=todo)
         if self.rotation and self.axis is None:
             refuse("a rotation needs an axis", key="rotation", todo="add 'axis', for example [0, -1, 0]")
         return self

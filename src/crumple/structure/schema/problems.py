@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
+from itertools import pairwise
 from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin
 
@@ -22,6 +23,7 @@ MOST_COMPARED = 50_000
 """Pairs of names that are compared in search of what was meant: half a second's work."""
 LONGEST_SHOWN = 60
 """Characters of a refused value that a message repeats; a longer one is cut."""
+DECIMAL_POINT = "write numbers with a decimal point, as 2.5 mm: a comma ends a value"
 _MEANT = re.compile(r"did you mean '([^']*)'")
 _TAG = re.compile(r"\(type=([^)]*)\)")
 
@@ -128,17 +130,17 @@ class Names(frozenset[str]):
 
 
 def suggestion(name: object, known: Iterable[str]) -> str:
-    """Closest known name as ``did you mean 'x'?``; empty where none is close, or too many are known.
-
-    A name that begins with a digit and has a unit is what a decimal comma leaves of a number.
-    """
-    if re.match(r"\d+ [a-zA-Z]", str(name)):
-        return "write numbers with a decimal point, as 2.5 mm: a comma ends a value"
+    """Closest known name as ``did you mean 'x'?``; empty where none is close, or too many are known."""
     names = list(known)
     if len(names) > MOST_COMPARED:
         return ""
     close = difflib.get_close_matches(str(name)[:64], names, n=1, cutoff=0.6)
     return f"did you mean '{close[0]}'?" if close else ""
+
+
+def meant_by_key(key: str, known: Iterable[str]) -> str:
+    """What an unknown key may stand for: the rest of a number with a decimal comma, or a known key."""
+    return DECIMAL_POINT if re.match(r"\d+ [a-zA-Z]", key) else suggestion(key, known)
 
 
 def unknown(kind: str, name: str, known: Iterable[str], where: str) -> Iterator[Problem]:
@@ -178,7 +180,7 @@ def _problem(
         came = came if context.get("came") is None else context["came"]
         return Problem(context["what"], came, context["allowed"], context["todo"], where)
     if kind == "extra_forbidden":
-        todo = suggestion(key, keys) or "remove it or correct its spelling"
+        todo = meant_by_key(key, keys) or "remove it or correct its spelling"
         return Problem(f"unknown key '{key}'", came, one_of(keys) if keys else "", todo, where)
     if kind == "missing":
         return Problem(f"the key '{key}' is missing", todo=f"add '{key}'", where=where)
@@ -193,7 +195,18 @@ def _problem(
         )
     what, allowed = _WORDS.get(kind, (message, ""))
     todo = f"write {allowed}" if what.endswith(_NEEDED) else ""
+    if kind == "too_long" and not isinstance(value, Mapping):
+        todo = DECIMAL_POINT if _is_cut_by_commas(value) else "remove what is too much"
     return Problem(what, came, allowed.format_map(_Blank(context)), todo, where)
+
+
+def _is_cut_by_commas(values: Iterable[object]) -> bool:
+    """Whether a list has a whole number without a unit, and behind it the rest of a decimal comma."""
+    given = list(values)
+    return any(
+        isinstance(first, int) and re.match(r"\d+ [a-zA-Z]", str(rest)) is not None
+        for first, rest in pairwise(given)
+    )
 
 
 def _too_short(value: Any, place: Place) -> Problem:
@@ -210,7 +223,8 @@ def _unknown_type(value: Any, context: Mapping[str, Any], where: str) -> Problem
     types = _TAG.findall(str(context.get("expected_tags", "")))
     tag = (_TAG.findall(str(context.get("tag", ""))) or [""])[0]
     what = f"unknown type '{shown(tag)}'" if tag else "the key 'type' is missing"
-    return Problem(what, shown(tag), one_of(types), suggestion(tag, types), where)
+    todo = suggestion(tag, types) if tag else "add 'type'"
+    return Problem(what, shown(tag), one_of(types), todo, where)
 
 
 _NEEDED = "is needed here"

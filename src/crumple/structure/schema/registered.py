@@ -23,7 +23,7 @@ from pydantic import (
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from crumple.registry.keys import MISSING, Key
-from crumple.structure.schema.problems import one_of, shown, suggestion
+from crumple.structure.schema.problems import meant_by_key, one_of, shown, suggestion
 from crumple.structure.schema.spec import Spec
 
 
@@ -121,7 +121,9 @@ class Registered(Spec):
                 own[name] = key.default
         known = [*cls.model_fields, *(key.name for key in cls.file_keys(kind)), *keys]
         for name in (name for name in given if name not in known):
-            todo = suggestion(name, known) or _belongs(cls, name) or "remove it or correct its spelling"
+            todo = (
+                meant_by_key(str(name), known) or _belongs(cls, name) or "remove it or correct its spelling"
+            )
             unknown = _refused(f"unknown key '{shown(name)}'", one_of(known), todo)
             errors.append(InitErrorDetails(type=unknown, loc=(name,), input=given[name]))
         try:

@@ -30,8 +30,8 @@ def test_columns_are_found_by_name_and_converted(text):
 @pytest.mark.parametrize(
     ("text", "line", "message"),
     [
-        ("", 0, "empty"),
-        ("# nothing\n\n", 0, "empty"),
+        ("", 1, "empty"),
+        ("# nothing\n\n", 1, "empty"),
         ("rotation [deg], moment [kN*m]\n", 1, "no points"),
         ("rotation, moment\n0,1\n", 1, "no column is named rotation"),
         ("rotation [deg], force [kN]\n0,1\n", 1, "no column is named moment"),

@@ -37,6 +37,7 @@ CHANGES = {
         "flow_stress: 350 MPa",
         "hardening: {type: table, plastic_strain: [0, 5, 10], true_stress: [300 MPa, 400 MPa, 420 MPa]}",
     ),
+    "at which a metal tears": ("flow_stress: 350 MPa", "failure_strain: 20"),
     "strain rate of 100/s": (
         "flow_stress: 350 MPa",
         "flow_rate: {type: cowper-symonds, D: 1e-9 1/s, q: 5}",
