@@ -25,8 +25,6 @@
 
 namespace crumple::spatial {
 
-constexpr int most_components = 4;
-
 using hinge::Form;
 using hinge::Softening;
 

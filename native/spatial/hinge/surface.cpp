@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <initializer_list>
 
+#include "spatial/hinge/gauge.hpp"
+
 namespace crumple::spatial {
 
 namespace {
 
-constexpr int most = 4;
+constexpr int most = most_components;
 // Limit of Newton iterations on the surface; about five are usual, more are needed at the edges of surfaces with high powers.
 constexpr int newton_limit = 80;
 constexpr int halvings = 40;
@@ -21,36 +23,6 @@ constexpr double converged = 1e-15;
 constexpr double value_converged = 1e-9;
 // Bound of g up to which a point is inside whatever the rounding of g itself.
 constexpr double surely_inside = 1 - 1e-9;
-// Moment over g below which the slope over it, which is the curvature there, has too few digits.
-constexpr double no_moment = 1e-7;
-
-// v^p for v >= 0; multiples of one half, which fits use, without the general power, which takes most of the time otherwise
-double to_power(double v, double p) {
-    const int whole = static_cast<int>(p);
-    const double rest = p - whole;
-    if (rest != 0 && rest != 0.5) return std::pow(v, p);
-    double result = rest == 0 ? 1 : std::sqrt(v);
-    for (int k = whole; k > 0; k >>= 1, v *= v) {
-        if (k & 1) result *= v;
-    }
-    return result;
-}
-
-// v^(1/p)
-double root_of(double v, double p) {
-    if (p == 2) return std::sqrt(v);
-    if (p == 4) return std::sqrt(std::sqrt(v));
-    if (p == 16) return std::sqrt(std::sqrt(std::sqrt(std::sqrt(v))));
-    return std::pow(v, 1 / p);
-}
-
-double dot(int n, const double* a, const double* b) {
-    double sum = 0;
-    for (int k = 0; k < n; k++) sum += a[k] * b[k];
-    return sum;
-}
-
-double length(int n, const double* a) { return std::sqrt(dot(n, a, a)); }
 
 // Solves a x = b by Gauss elimination with pivoting; a (n x n) and b (n x columns) are overwritten.  A zero pivot is made tiny.
 void solve(int n, double a[][most + 1], double b[][most + 1], int columns) {
@@ -77,126 +49,8 @@ void solve(int n, double a[][most + 1], double b[][most + 1], int columns) {
     }
 }
 
-// What is asked of g at a point: itself, also its gradient, and also its curvature.
-enum class Order { value, gradient, curvature };
-
-struct Shape {
-    double g = 0;
-    double gradient[most] = {};
-    double curvature[most][most] = {};
-};
-
-// p-norm of the linear forms a.x of all rows.
-template <int n>
-Shape direct_shape(const Surface& s, const double* x, Order order) {
-    Shape out;
-    const std::size_t rows = s.rows.size() / n;
-    const double* a = s.rows.data();
-    double largest = 0;
-    for (std::size_t i = 0; i < rows; i++) largest = std::max(largest, std::fabs(dot(n, a + i * n, x)));
-    if (largest == 0) return out;
-    // scale by the largest form, so that high powers neither overflow nor underflow
-    double total = 0;
-    for (std::size_t i = 0; i < rows; i++, a += n) {
-        const double ratio = dot(n, a, x) / largest, size = std::fabs(ratio);
-        const double low = to_power(size, s.power - 2), slope = low * ratio;
-        total += slope * ratio;
-        if (order == Order::value) continue;
-        for (int j = 0; j < n; j++) {
-            out.gradient[j] += slope * a[j];
-            if (order == Order::gradient) continue;
-            for (int k = 0; k <= j; k++) out.curvature[j][k] += low * a[j] * a[k];
-        }
-    }
-    const double root = root_of(total, s.power);
-    out.g = largest * root;
-    if (order == Order::value) return out;
-    const double slope_scale = root / total, bend = (s.power - 1) * root / (total * largest);
-    for (int j = 0; j < n; j++) out.gradient[j] *= slope_scale;
-    if (order == Order::gradient) return out;
-    for (int j = 0; j < n; j++) {
-        for (int k = 0; k <= j; k++) {
-            out.curvature[j][k] = bend * out.curvature[j][k] - (s.power - 1) / out.g * out.gradient[j] * out.gradient[k];
-            out.curvature[k][j] = out.curvature[j][k];
-        }
-    }
-    return out;
-}
-
-// The same of a round tube, whose rows are forms of the axial force and the length of the moment.
-Shape axisymmetric_shape(const Surface& s, int n, const double* x, Order order) {
-    const int first = n - 2;
-    const double* moment = x + first;
-    const double length_of = length(2, moment), plane[2] = {x[0], length_of};
-    const Shape in_plane = direct_shape<2>(s, plane, order);
-    Shape out;
-    out.g = in_plane.g;
-    if (order == Order::value || out.g == 0) return out;
-    double along[2] = {};
-    for (int j = 0; j < 2 && length_of > 0; j++) along[j] = moment[j] / length_of;
-    out.gradient[0] = in_plane.gradient[0];
-    for (int j = 0; j < 2; j++) out.gradient[first + j] = in_plane.gradient[1] * along[j];
-    if (order == Order::gradient) return out;
-    const double radial = in_plane.curvature[1][1], around = length_of > no_moment * out.g ? in_plane.gradient[1] / length_of : radial;
-    out.curvature[0][0] = in_plane.curvature[0][0];
-    for (int j = 0; j < 2; j++) {
-        out.curvature[0][first + j] = out.curvature[first + j][0] = in_plane.curvature[0][1] * along[j];
-        for (int k = 0; k < 2; k++) out.curvature[first + j][first + k] = (radial - around) * along[j] * along[k] + (j == k ? around : 0);
-    }
-    return out;
-}
-
-// Adds the sum of the squares of all rows to a curvature, times a factor.
-void add_squares(const Surface& s, int n, double factor, double curvature[][most]) {
-    const int columns = s.axisymmetric ? 2 : n;
-    for (std::size_t i = 0; i < s.rows.size(); i += static_cast<std::size_t>(columns)) {
-        const double* a = s.rows.data() + i;
-        if (s.axisymmetric) {
-            curvature[0][0] += factor * a[0] * a[0];
-            for (int j = n - 2; j < n; j++) curvature[j][j] += factor * a[1] * a[1];
-            continue;
-        }
-        for (int j = 0; j < n; j++) {
-            for (int k = 0; k < n; k++) curvature[j][k] += factor * a[j] * a[k];
-        }
-    }
-}
-
-// g = (d^r + |t|^r)^(1/r) of the direct part d and the torque t.
-Shape with_torque(const Surface& s, int n, const double* x, const Shape& d, Order order) {
-    const double torque = x[s.torsion], r = s.torque_power;
-    const double t = std::fabs(torque), top = std::max(d.g, t);
-    Shape out;
-    if (top == 0) return out;
-    out.g = top * root_of(to_power(d.g / top, r) + to_power(t / top, r), r);
-    if (order == Order::value) return out;
-    const double u = d.g / out.g, v = t / out.g, sign = torque < 0 ? -1 : 1;
-    const double flat = to_power(u, r - 2), flat_t = to_power(v, r - 2), by_d = flat * u, by_t = sign * flat_t * v;
-    for (int j = 0; j < n; j++) out.gradient[j] = by_d * d.gradient[j];
-    out.gradient[s.torsion] = by_t;
-    if (order == Order::gradient) return out;
-    const double bend = (r - 1) / out.g, dd = bend * (flat - by_d * by_d), dt = -bend * by_d * by_t;
-    for (int j = 0; j < n; j++) {
-        // at zero direct load its norm has a kink, which r >= 2 smooths: use the plain sum over the rows there
-        for (int k = 0; k < n; k++) out.curvature[j][k] = dd * d.gradient[j] * d.gradient[k] + by_d * d.curvature[j][k];
-    }
-    for (int j = 0; j < n; j++) out.curvature[j][s.torsion] = out.curvature[s.torsion][j] = dt * d.gradient[j];
-    if (d.g == 0) add_squares(s, n, flat / out.g, out.curvature);
-    out.curvature[s.torsion][s.torsion] = bend * (flat_t - by_t * by_t);
-    return out;
-}
-
-Shape shape(const Surface& s, int n, const double* x, Order order) {
-    const Shape direct = s.axisymmetric ? axisymmetric_shape(s, n, x, order)
-                         : n == 1   ? direct_shape<1>(s, x, order)
-                         : n == 2 ? direct_shape<2>(s, x, order)
-                         : n == 3 ? direct_shape<3>(s, x, order)
-                                  : direct_shape<4>(s, x, order);
-    return s.torsion < 0 ? direct : with_torque(s, n, x, direct, order);
-}
-
 // The same at the point g = 1 on the ray through x: the gradient is unchanged, the curvature scales with 1/|x|.
-Shape on_surface(int n, Shape at, double* x) {
+GaugeAt on_surface(int n, GaugeAt at, double* x) {
     for (int j = 0; j < n; j++) {
         x[j] /= at.g;
         for (int k = 0; k < n; k++) at.curvature[j][k] *= at.g;
@@ -212,7 +66,7 @@ double objective(int n, const double* y, const double* m, const double* x) {
 }
 
 // Bordered matrix of Newton's method in (x, multiplier): [M + multiplier H, normal; normal^T, 0].
-void bordered(int n, const double* m, double multiplier, const Shape& at, double a[][most + 1]) {
+void bordered(int n, const double* m, double multiplier, const GaugeAt& at, double a[][most + 1]) {
     for (int j = 0; j < n; j++) {
         for (int k = 0; k < n; k++) a[j][k] = multiplier * at.curvature[j][k] + (j == k ? m[j] : 0);
         a[j][n] = a[n][j] = at.gradient[j];
@@ -220,7 +74,7 @@ void bordered(int n, const double* m, double multiplier, const Shape& at, double
     a[n][n] = 0;
 }
 
-void inverse_block(int n, const double* m, double multiplier, const Shape& at, double* derivative) {
+void inverse_block(int n, const double* m, double multiplier, const GaugeAt& at, double* derivative) {
     double a[most + 1][most + 1], b[most + 1][most + 1] = {};
     bordered(n, m, multiplier, at, a);
     for (int k = 0; k < n; k++) b[k][k] = 1;
@@ -265,8 +119,8 @@ SurfacePoint on_section(const Surface& s, int n, const double* y, const double* 
         if (free.g == 0) free = {y, gauge(s, n, y, nullptr)};
         best = begin_at(n, y, m, {free, near}, p.x);
     }
-    Shape at = shape(s, n, p.x, Order::curvature);
-    auto residual = [&](const double* x, const Shape& here, double* r) {
+    GaugeAt at = gauge_at(s, n, p.x, Order::curvature);
+    auto residual = [&](const double* x, const GaugeAt& here, double* r) {
         double multiplier = 0;
         for (int k = 0; k < n; k++) multiplier += x[k] * (y[k] - m[k] * x[k]);
         for (int k = 0; k < n; k++) r[k] = y[k] - m[k] * x[k] - multiplier * here.gradient[k];
@@ -287,7 +141,7 @@ SurfacePoint on_section(const Surface& s, int n, const double* y, const double* 
         for (int halving = 0; halving < halvings && !moved; halving++, share /= 2) {
             double trial[most], trial_r[most];
             for (int k = 0; k < n; k++) trial[k] = p.x[k] + share * step[k];
-            const Shape there = on_surface(n, shape(s, n, trial, Order::curvature), trial);
+            const GaugeAt there = on_surface(n, gauge_at(s, n, trial, Order::curvature), trial);
             const double f = objective(n, y, m, trial);
             const double multiplier = residual(trial, there, trial_r), remains = length(n, trial_r);
             // sufficient increase (Armijo); close to the maximum, where the increase is lost in rounding, the residual decides
@@ -345,7 +199,7 @@ SurfacePoint on_ellipsoid(int n, const double* y, const double* m, double* deriv
 
 double gauge(const Surface& s, int n, const double* x, double* gradient) {
     if (s.coupling == Coupling::section) {
-        const Shape at = shape(s, n, x, gradient != nullptr ? Order::gradient : Order::value);
+        const GaugeAt at = gauge_at(s, n, x, gradient != nullptr ? Order::gradient : Order::value);
         if (gradient != nullptr) std::copy(at.gradient, at.gradient + n, gradient);
         return at.g;
     }
@@ -357,7 +211,7 @@ double gauge(const Surface& s, int n, const double* x, double* gradient) {
 // At g = 0, and for the ellipsoid everywhere, the curvature is the unit matrix.
 double half_square(const Surface& s, int n, const double* x, double* gradient, double* curvature, int stride) {
     const bool section = s.coupling == Coupling::section;
-    const Shape at = section ? shape(s, n, x, Order::curvature) : Shape{};
+    const GaugeAt at = section ? gauge_at(s, n, x, Order::curvature) : GaugeAt{};
     for (int j = 0; j < n; j++) {
         gradient[j] = section ? at.g * at.gradient[j] : x[j];
         for (int k = 0; k < n; k++) {

@@ -11,6 +11,8 @@
 
 namespace crumple::spatial {
 
+constexpr int most_components = 4;  // of a hinge
+
 enum class Coupling {
     none,            // independent components
     ellipsoid,       // |x|, x the forces and moments relative to their capacities
@@ -35,12 +37,12 @@ struct Surface {
     double arm = 0;              // tension flange: distance of the flange from the centroid [m]
     std::vector<ArmGain> gains;  // tension flange: compression moves the axis of the fold outwards
     hinge::Curve growth;         // tension flange: share of `arm` over the largest plastic rotation so far; empty: 1
-    double alone[4] = {};        // section: g of the capacity of every component alone
+    double alone[most_components] = {};        // section: g of the capacity of every component alone
 };
 
 // Solution of the problem: point x, value of the maximum, multiplier of g <= 1 (zero inside).
 struct SurfacePoint {
-    double x[4] = {0, 0, 0, 0};
+    double x[most_components] = {};
     double value = 0, multiplier = 0;
 };
 
