@@ -11,7 +11,7 @@ import numpy as np
 from crumple.errors import Problem
 from crumple.result import Channel, Result, cfc
 from crumple.result.channels import names_of
-from crumple.result.filters import CUT_OFF, SAMPLES_PER_CUT_OFF
+from crumple.result.filters import CUT_OFF, SAMPLES_PER_CUT_OFF, value_before
 from crumple.structure import Filter, Outputs, hinge_places
 from crumple.structure.parts import StructureParts
 from crumple.structure.schema.problems import one_of, suggestion
@@ -66,7 +66,8 @@ def with_filters(result: Result, outputs: Outputs, interval: float) -> Result:
             warnings.append(f"{name} could not be filtered: the run ended too early")
             continue
         raw = channels[wanted.channel]
-        smooth = cfc(np.interp(regular, result.time, raw.values), interval, wanted.cfc)
+        even = np.interp(regular, result.time, raw.values)
+        smooth = cfc(even, interval, wanted.cfc, before=value_before(wanted.channel))
         channels[name] = Channel(name, raw.unit, np.interp(result.time, regular, smooth))
     names = (*result.output_names, *(name for name in outputs.filters if name in channels))
     return replace(result, channels=channels, warnings=tuple(warnings), output_names=names)

@@ -11,7 +11,8 @@ so f_d = 1.2465 times the cut-off.  The standards write f_d = 2.0775 CFC (SAE) a
 puts the cut-off near 5/3 CFC.
 
 Ends: the record is continued by its mirror image through its first and its last point, 10 ms and at least 100
-samples long (or as long as the record allows), and each run starts at rest on the mean of ten samples.
+samples long (or as long as the record allows), and each run starts at rest on the mean of ten samples.  The
+mirror image takes a pulse at the start back; where the value before is known, it is put there instead.
 
 Limits: see docs/theory/filters.md, also for what was read and what is quoted.
 """
@@ -52,6 +53,7 @@ def cfc(
     channel_class: ChannelClass,
     *,
     standard: Standard = "SAE J211",
+    before: float | None = None,
 ) -> NDArray[np.float64]:
     """Filter a history with one of the four channel frequency classes.
 
@@ -65,6 +67,8 @@ def cfc(
         60, 180, 600 or 1000.
     standard
         Whose design frequency to use; the two differ by 0.3 %.
+    before
+        Value before the record, such as 0 of a force that nothing exerted; None: the mirror image.
 
     Returns
     -------
@@ -85,13 +89,19 @@ def cfc(
     samples = np.asarray(values, dtype=np.float64)
     _check(samples, time_step, channel_class, standard)
     coefficients = butterworth(DESIGN_FACTOR[standard] * channel_class, time_step)
-    length = min(max(round(_EXTENSION_TIME / time_step), _EXTENSION_SAMPLES), samples.size - 1)
-    extended = np.concatenate(
-        [2 * samples[0] - samples[length:0:-1], samples, 2 * samples[-1] - samples[-2 : -length - 2 : -1]]
-    )
+    wanted = max(round(_EXTENSION_TIME / time_step), _EXTENSION_SAMPLES)
+    length = min(wanted, samples.size - 1)
+    head = 2 * samples[0] - samples[length:0:-1] if before is None else np.full(wanted, before)
+    extended = np.concatenate([head, samples, 2 * samples[-1] - samples[-2 : -length - 2 : -1]])
     forward = _run(extended.tolist(), coefficients)
     backward = _run(forward[::-1], coefficients)
-    return np.array(backward[::-1])[length : length + samples.size]
+    return np.array(backward[::-1])[head.size : head.size + samples.size]
+
+
+def value_before(channel: str) -> float | None:
+    """Value of a channel before a run: 0 of obstacle forces and accelerations, else not known."""
+    quiet = ".acceleration." in channel or (channel.startswith("obstacle.") and ".force." in channel)
+    return 0.0 if quiet else None
 
 
 def butterworth(design_frequency: float, time_step: float) -> tuple[float, float, float, float, float]:

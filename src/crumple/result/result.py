@@ -344,13 +344,14 @@ class Result:
         InputError
             If there is no such channel, or the times are not equally spaced or too far apart for the class.
         """
-        from crumple.result.filters import cfc, uniform_step  # noqa: PLC0415  (it needs nothing of this module)
+        from crumple.result.filters import cfc, uniform_step, value_before  # noqa: PLC0415  (it needs nothing of this module)
 
         try:
             values = self[name]
         except KeyError as error:
             raise InputError(Problem(str(error.args[0]))) from None
-        smooth = cfc(values, uniform_step(self.time), channel_class, standard=standard)
+        before = value_before(name)
+        smooth = cfc(values, uniform_step(self.time), channel_class, standard=standard, before=before)
         return Channel(f"{name}.cfc{channel_class}", self.channels[name].unit, smooth)
 
     def equals(self, other: Result) -> bool:

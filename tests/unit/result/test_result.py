@@ -3,6 +3,7 @@
 import json
 import math
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,6 +11,8 @@ from tests.support.result.synthetic_tube import MOMENT, ROTATION_MAX, tube_chann
 
 from crumple.errors import InputError, Status
 from crumple.result import Channel, cfc, summary, summary_json
+
+ACCELERATION = "node.tip.acceleration.z"
 
 
 def test_channel_by_name(tube):
@@ -64,6 +67,13 @@ def test_filtered_is_the_filter_on_the_channel(tube):
     assert smooth.name == "node.tip.velocity.z.cfc180"
     assert smooth.unit == "m/s"
     np.testing.assert_array_equal(smooth.values, cfc(tube["node.tip.velocity.z"], 0.0005, 180))
+    # no acceleration before the start, while velocities are not known to vanish
+    values = np.arange(40.0)
+    pulse = replace(
+        tube, time=0.5e-3 * values, channels={ACCELERATION: Channel(ACCELERATION, "m/s^2", values)}
+    )
+    smooth = pulse.filtered(ACCELERATION, 60).values
+    np.testing.assert_array_equal(smooth, cfc(values, 0.0005, 60, before=0.0))
 
 
 def test_filtered_refuses_what_cannot_be_filtered(tube):

@@ -111,6 +111,24 @@ def test_time_reversal_changes_nothing_but_the_start():
     np.testing.assert_allclose(there[500:2500], back[500:2500], atol=1e-9)
 
 
+@pytest.mark.parametrize("channel_class", CLASSES)
+def test_a_known_past_is_as_good_as_a_longer_record(channel_class, record_figure):
+    """A pulse that begins with the record: from zeros before it, as in a record that has them."""
+    quiet = round(0.1 / TIME_STEP)
+    pulse = np.sin(np.linspace(0.0, np.pi, round(0.1 / channel_class / TIME_STEP)))
+    record = np.concatenate([pulse, np.zeros(quiet)])
+    longer = cfc(np.concatenate([np.zeros(quiet), record]), TIME_STEP, channel_class)[quiet:]
+    known = cfc(record, TIME_STEP, channel_class, before=0.0)
+    # what is left of the run backward 10 ms before the record
+    record_figure(
+        f"difference over the peak, CFC {channel_class}",
+        np.abs(known / longer.max() - longer / longer.max()).max(),
+        0.0,
+        5e-3,
+    )
+    assert cfc(record, TIME_STEP, channel_class).max() < 0.9 * known.max()
+
+
 def test_a_step_keeps_its_place():
     x = np.where(np.arange(2001) < 1000, 0.0, 1.0)
     x[1000] = 0.5

@@ -205,7 +205,7 @@ def _filtered(result: Result, force: Floats) -> Floats:
     parts = []
     for i in range(3):
         means = np.diff(np.interp(even, time, passed[:, i])) / step
-        parts.append(cfc(np.concatenate([force[:1, i], means]), step, 60))
+        parts.append(cfc(np.concatenate([force[:1, i], means]), step, 60, before=0.0))
     return np.asarray(np.linalg.norm(parts, axis=0))
 
 

@@ -1,4 +1,4 @@
-"""The filtered force of an obstacle does not depend on outputs between, which shapes add."""
+"""The filtered force of an obstacle depends neither on outputs between nor on when it begins."""
 
 from types import SimpleNamespace
 
@@ -24,3 +24,12 @@ def test_outputs_of_shapes_change_no_filtered_force():
     # what the impact adds contains its impulse
     added = filtered(even, 3.0) - filtered(even, 0.0)
     assert added.sum() * EVERY == pytest.approx(3.0, rel=1e-3)
+
+
+@pytest.mark.parametrize("start", [0.0, 0.5e-3, 20e-3])
+def test_a_pulse_at_the_start_is_filtered_as_one_later(start):
+    """Before the run nothing pressed: its mirror image took back more than half of a pulse at the start."""
+    time = np.arange(0.0, DURATION + EVERY / 2, EVERY).round(9)
+    force = np.where((time > start) & (time <= start + 4 * EVERY), 30e3, 0.0)
+    peak = _filtered(SimpleNamespace(time=time), np.column_stack([force, 0.0 * time, 0.0 * time])).max()
+    assert peak == pytest.approx(15.1e3, rel=0.02)
