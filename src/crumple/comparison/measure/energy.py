@@ -9,7 +9,7 @@ a joint.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from crumple.structure import PlacedHinge, Structure, plastic_hinges
 from crumple.structure.hinges.corner_laws import corner_of
 from crumple.structure.hinges.corners import Corner
 from crumple.structure.hinges.joint_reach import joint_reach
+from crumple.structure.hinges.runs.straight_runs import StraightRun, straight_run
 
 SHARED = 2.0
 """Power of the axial force over its capacity in the share of such work that is spread: the rest of the
@@ -88,35 +89,38 @@ def _before_folding(result: Result, hinge: PlacedHinge) -> float:
 def _along_members(
     structure: Structure, hinges: tuple[PlacedHinge, ...], uniform: dict[str, float]
 ) -> Iterator[Work]:
-    """Energy in pieces of the length up to half way to the next hinges of the member that slip."""
-    for member in dict.fromkeys(one.member for one in hinges if one.name in uniform):
+    """Energy in pieces of the length up to half way to the next hinges of the straight run that slip."""
+    for run in _runs(structure, (one.member for one in hinges if one.name in uniform)):
         own = sorted(
-            (one.station, uniform.get(one.name, 0.0))
+            (run.stretches[one.member].along(one.station), uniform.get(one.name, 0.0))
             for one in hinges
-            if one.member == member and _slips(one)
+            if one.member in run.stretches and _slips(one)
         )
-        stations = np.array([station for station, _ in own])
-        borders = _half_way(stations, structure, member)
-        for k, (_, energy) in enumerate(own):
-            yield from _in_pieces(member, borders[k : k + 2], energy)
+        yield from _spread(structure, run, np.array([place for place, _ in own]), own)
+
+
+def _runs(structure: Structure, members: Iterable[str]) -> list[StraightRun]:
+    """Straight runs of members: it does not matter to which of them a hinge at a node between belongs."""
+    return list({run.first: run for run in (straight_run(structure, name) for name in members)}.values())
 
 
 def _slips(hinge: PlacedHinge) -> bool:
     return hinge.spatial is not None and Freedom.AXIAL in hinge.spatial.freedoms
 
 
-def _half_way(stations: Floats, structure: Structure, member: str) -> Floats:
-    """Borders half way between points of a member [m], and where it leaves the rigid joints at its ends."""
-    nodes, length = structure.members[member].nodes, structure.frame_of(member).length
-    first, last = (joint_reach(structure, member, node) for node in nodes)
-    ends = min(first, float(stations[0])), max(length - last, float(stations[-1]))
-    return np.concatenate([ends[:1], (stations[:-1] + stations[1:]) / 2.0, ends[1:]])
-
-
-def _in_pieces(member: str, borders: Floats, energy: float) -> Iterator[Work]:
-    """Energy that is spread evenly between two borders."""
-    middles = borders[0] + (np.arange(PIECES) + 0.5) / PIECES * (borders[1] - borders[0])
-    yield from ((member, float(at), energy / PIECES) for at in middles)
+def _spread(
+    structure: Structure, run: StraightRun, points: Floats, works: Iterable[tuple[float, float]]
+) -> Iterator[Work]:
+    """Works at points along a run [m, J], each evenly up to half way to the points beside it."""
+    (member, node), (last_member, last_node) = run.ends
+    first, last = joint_reach(structure, member, node), joint_reach(structure, last_member, last_node)
+    ends = min(first, float(points[0])), max(run.length - last, float(points[-1]))
+    borders = np.concatenate([ends[:1], (points[:-1] + points[1:]) / 2.0, ends[1:]])
+    for place, energy in works:
+        k = int(np.searchsorted(points, place))
+        for at in borders[k] + (np.arange(PIECES) + 0.5) / PIECES * (borders[k + 1] - borders[k]):
+            name = run.member_at(float(at))
+            yield name, run.stretches[name].station(float(at)), energy / PIECES
 
 
 def distortions(result: Result, structure: Structure) -> Iterator[tuple[str, Work]]:
@@ -162,12 +166,13 @@ def _distorting(structure: Structure, node: str, member: str, energy: float) -> 
 
 def _of_joints(result: Result, structure: Structure, hinges: tuple[PlacedHinge, ...]) -> Iterator[Work]:
     """Energy of the joints of elastic members, in pieces of the length up to half way to their neighbours."""
-    for member, joints in result.yielded.items():
-        own = {hinge.station for hinge in hinges if hinge.member == member} | {
-            station for station, _ in joints
-        }
-        points = np.array(sorted(own))
-        borders = _half_way(points, structure, member)
-        for station, energy in joints:
-            k = int(np.searchsorted(points, station))
-            yield from _in_pieces(member, borders[k : k + 2], energy)
+    for run in _runs(structure, result.yielded):
+        joints = [
+            (stretch.along(station), energy)
+            for name, stretch in run.stretches.items()
+            for station, energy in result.yielded.get(name, ())
+        ]
+        at_hinges = [
+            run.stretches[one.member].along(one.station) for one in hinges if one.member in run.stretches
+        ]
+        yield from _spread(structure, run, np.unique([*(place for place, _ in joints), *at_hinges]), joints)
