@@ -15,8 +15,8 @@ from crumple._core.spatial.model import SpatialCapsule
 from crumple.hinge.registry import build_axial_law
 from crumple.numeric.arrays import Floats
 from crumple.structure import PlaneObstacle, Structure
-from crumple.structure.hinges.automatic import FOLDING
 from crumple.structure.hinges.corners import leaving
+from crumple.structure.hinges.law_choice import FOLDING
 
 OBLIQUE = {"rectangular_tube": 1.3, "circular_tube": 1.0}
 """Force at which a whole oblique face crumples, over the mean crushing force of the section's law of axial

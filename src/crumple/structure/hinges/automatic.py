@@ -29,7 +29,7 @@ from crumple.section import Axis, half_fold_length
 from crumple.structure.bending import bending_axis, planar
 from crumple.structure.hinges.asked import FOLDS, automatic_of, folds_at_ends
 from crumple.structure.hinges.corner_laws import corner_hinges, corner_zones
-from crumple.structure.hinges.law_choice import UNKNOWN, Surroundings, component_text
+from crumple.structure.hinges.law_choice import UNKNOWN, Surroundings, folding_slip
 from crumple.structure.hinges.lengthening.braced import braced
 from crumple.structure.hinges.lengthening.held_runs import held_runs, pushed_runs
 from crumple.structure.hinges.lengthening.pressed import struck_along
@@ -40,9 +40,6 @@ from crumple.structure.hinges.t_joints import t_joint_hinges, t_joint_zones
 from crumple.structure.keys.hinge_axes import AxialSlip, HingeAxes
 from crumple.structure.keys.member import AutomaticHinges, Hinge
 from crumple.structure.parts import StructureParts
-
-FOLDING = {"rectangular_tube": "superfolding", "circular_tube": "circular"}
-"""Laws of crushing by the kind of section; others have none that holds for any size."""
 
 
 def hinges_of(structure: StructureParts, member: str) -> tuple[Hinge, ...]:
@@ -120,12 +117,9 @@ def _slip(structure: StructureParts, member: str) -> AxialSlip:
 
     Held runs that nothing drives mostly stretch, and yield.  A stored law of folding is used in any case.
     """
-    law = FOLDING.get(structure.section_of(member).kind)
     pressed = braced(structure) | pushed_runs(structure)
     folds = struck_along(structure, member) or member in pressed
-    if law is None or not folds or component_text(structure, member, "crush"):
-        return AxialSlip()
-    return AxialSlip(law=law)
+    return folding_slip(structure, member) if folds else AxialSlip()
 
 
 def lengthens(structure: StructureParts, member: str) -> bool:

@@ -13,9 +13,9 @@ from crumple.structure.bending import planar
 from crumple.structure.hinges.asked import automatic_of
 from crumple.structure.hinges.corner.across import bisector_law, is_turned
 from crumple.structure.hinges.corners import Corner, corners
-from crumple.structure.hinges.law_choice import automatic_law, stored_text, with_type
+from crumple.structure.hinges.law_choice import automatic_law, folding_slip, stored_text, with_type
 from crumple.structure.hinges.lengthening.stopped import presses
-from crumple.structure.keys.hinge_axes import AxialSlip, AxisLaws
+from crumple.structure.keys.hinge_axes import AxisLaws
 from crumple.structure.keys.law import LawKeys, LawReference
 from crumple.structure.keys.member import Hinge
 from crumple.structure.parts import StructureParts
@@ -140,7 +140,7 @@ def corner_hinges(structure: StructureParts, member: str, keys: Mapping[str, Any
             own = {**keys, "axes": axes, "law": None, "laws": AxisLaws(**{**rest, corner.axis: law})}
             own |= {"coupling": keys["coupling"] or "ellipsoid"} if turned else {}
             if turned and presses(structure) and _shortening(structure, corner, keys, law):
-                own["axial"] = keys["axial"] or AxialSlip()
+                own["axial"] = keys["axial"] or folding_slip(structure, corner.first)
         station = 0.0 if nodes[0] == node else length
         found.append(Hinge.model_construct(name=corner_name(node), at=station, **own))
     return found
@@ -162,7 +162,7 @@ def _shortening(
     able = structure.obstacles and all(member.elastic for member in members) and known
     if declined or not able or keys["coupling"] is not None:
         return {}
-    return {"axial": keys["axial"] or AxialSlip(), "coupling": "tension-flange"}
+    return {"axial": keys["axial"] or folding_slip(structure, corner.first), "coupling": "tension-flange"}
 
 
 def _out_of_plane(

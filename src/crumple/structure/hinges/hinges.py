@@ -191,9 +191,10 @@ def spatial_record_of(
         crush=laws_of_loads(structure, place).get("crush"),
     )
     corner = turned_corner(structure, place.name, place.keys.axes)
+    squash = metal[1].yield_stress * metal[0].area
     if corner is None:
         plain = corner_of(structure, place.name)
-        return record if plain is None else with_corner_slip(record, plain, metal[0])
+        return record if plain is None else with_corner_slip(record, plain, metal[0], squash)
     # a corner's twist is about another axis, and its law contains what its walls carry besides
     own = replace(record, shear_loss=(0.0, 0.0))
     elastic = bool(structure.members[place.member].elastic)
@@ -201,7 +202,7 @@ def spatial_record_of(
     twisted = STIFF * _side(structure, place.member) if elastic else shares.twist
     sprung = with_corner_springs(own, corner, metal, twisted, torsion)
     shifted = with_corner_shift(sprung, corner, metal[0])
-    return with_corner_press(shifted, corner, metal[0], metal[1].yield_stress * metal[0].area)
+    return with_corner_press(shifted, corner, metal[0], squash)
 
 
 def _side(structure: StructureParts, member: str) -> float:

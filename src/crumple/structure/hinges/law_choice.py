@@ -15,12 +15,15 @@ from crumple.hinge.registry import AUTO, Fold, build_law, law_options
 from crumple.hinge.tube_library.clamped import clamped_fold_distance
 from crumple.material import Material
 from crumple.section import Axis, Section, fold_distance
+from crumple.structure.keys.hinge_axes import AxialSlip
 from crumple.structure.keys.law import LawKeys, LawReference
 from crumple.structure.parts import StructureParts
 from crumple.structure.remembered import remembered
 
 KEPT = 1024
 """Laws that a process keeps."""
+FOLDING = {"rectangular_tube": "superfolding", "circular_tube": "circular"}
+"""Laws of crushing by the kind of section; others have none that holds for any size."""
 CLAMPED = "clamped_tube"
 """Law of folds beside clamps and joints; it goes before a stored one, whose fold lies between two pieces."""
 
@@ -104,6 +107,12 @@ def component_text(structure: StructureParts, member: str, load: Load) -> str | 
         return None
     section, material = structure.section_of(member), structure.material_of(member)
     return stored_text(structure, place_hash(section, material, load=load))
+
+
+def folding_slip(structure: StructureParts, member: str) -> AxialSlip:
+    """How a compressed member shortens: tubes fold, by a stored law where there is one, others yield."""
+    law = FOLDING.get(structure.section_of(member).kind)
+    return AxialSlip() if law is None or component_text(structure, member, "crush") else AxialSlip(law=law)
 
 
 def stored_text(structure: StructureParts, place: str) -> str | None:

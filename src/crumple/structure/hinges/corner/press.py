@@ -15,7 +15,9 @@ N, m of the moment in the plane, m_a and t of those across it, the surface is
 
     (|n| + |m|)^2 + m_a^2 + t^2 = 1.
 
-Slip and rotation soften alike, so that theta = u N(0)/M(0).  Limits: no force: the ellipsoid of the corner;
+Slip u and rotation share one measure of softening, max(M(0) theta, w N(0) u).  The weight w is the largest
+with which the slip of a corner that turns under N(theta), u = int M/N dtheta, never leads: else a corner that
+turns would soften by its slip, twice as fast as in its plane.  Limits: no force: the ellipsoid of the corner;
 no moments: N.  Derived here from the corner's law in its plane.
 """
 
@@ -27,19 +29,16 @@ from dataclasses import replace
 import numpy as np
 
 from crumple.hinge import Coupling, Freedom, HingeComponent, SpatialHingeRecord
-from crumple.hinge.record.record import Envelope, HingeRecord
 from crumple.hinge.record.spatial_record import HingeSurface
 from crumple.numeric.arrays import Floats
 from crumple.section import Section
-from crumple.structure.hinges.corner.slip import FOLDED, FULL, fold_share
+from crumple.structure.hinges.corner.slip import fold_share, pressed_slip
 from crumple.structure.hinges.corners import Corner
 
 POWER = 16.0
 """Power of the norm of the rows: corners of the polygon are rounded by 4 %."""
 DIRECTIONS = 5
 """Rows for a quarter of the circle of both moments."""
-PLACES = np.linspace(0.0, 6.0 * FOLDED, 31)
-"""Rotations at which the growth of the arm is seen [rad]."""
 
 
 def with_corner_press(
@@ -67,7 +66,7 @@ def with_corner_press(
     if {*parts} != {Freedom.AXIAL, Freedom.X, Freedom.Y, Freedom.Z}:
         return record
     arm = 0.5 * (section.bending_depth(corner.axis) - section.thickness)
-    pressed = _pressed(
+    pressed, weight = pressed_slip(
         parts[Freedom.AXIAL].record, parts[in_plane].record, arm, squash, fold_share(corner, section)
     )
 
@@ -77,7 +76,7 @@ def with_corner_press(
         spread = component.spread
         # the corner folds before its members yield in compression
         pulled = spread and replace(spread, shortening=(np.zeros(0), np.zeros(0)))
-        return replace(component, record=pressed, spread=pulled)
+        return replace(component, record=pressed, spread=pulled, softens=weight)
 
     order = record.freedoms
     columns = [order.index(Freedom.AXIAL), order.index(in_plane), order.index(Freedom[corner.across.upper()])]
@@ -87,23 +86,6 @@ def with_corner_press(
         Coupling.SECTION, rows, POWER, torsion=order.index(Freedom.X), error=2.0 ** (1.0 / POWER) - 1.0
     )
     return replace(record, components=tuple(map(own, record.components)), surface=surface)
-
-
-def _pressed(slip: HingeRecord, bending: HingeRecord, arm: float, squash: float, fold: float) -> HingeRecord:
-    """The slip's record with the smaller force in compression."""
-    laws = bending.positive, bending.negative
-    at_first = sum(float(law.moment[0]) for law in laws) / 2.0
-    first = (at_first / arm + (1.0 - fold) * FULL * squash / 2.0) / (1.0 - fold)
-    first = min(first, float(slip.negative.moment[0]))
-    ratio = first / at_first
-    turns = np.unique(
-        np.concatenate([PLACES, *(law.rotation for law in laws), slip.negative.rotation * ratio])
-    )
-    moment = sum((np.interp(turns, law.rotation, law.moment) for law in laws), np.zeros(turns.size)) / 2.0
-    left = 1.0 - fold * np.exp(-turns / FOLDED)
-    force = (moment / arm + (1.0 - fold) * FULL * squash / 2.0) / left
-    folding = np.interp(turns / ratio, slip.negative.rotation, slip.negative.moment)
-    return replace(slip, negative=Envelope(turns / ratio, np.minimum(force, folding)))
 
 
 def _rows() -> Floats:

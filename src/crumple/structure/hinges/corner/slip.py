@@ -8,7 +8,8 @@ with the sine s of half the angle between the members, the wall t, the depth h =
 plastic rotation theta, the compressive force N at right angles to the mitre and the yield force N_y of the
 section.  The first part is the fold's, the second that of the walls that yield: compression moves the neutral
 axis.  A folded corner under N = n N_y turns about its tension flange.  The moment falls by the integral of
-the arm over N, and the corner shortens by the arm times its rotation.  The second part is replaced by `SIDES`
+the arm over N, and the corner shortens by the arm times its rotation.  A force without moment shortens it
+too, and falls as if the corner turned (`pressed_slip`).  The second part is replaced by `SIDES`
 steps, so that the set is a polygon.  Derived here; f, c, n and theta_1 are fitted to corners solved by
 shells, docs/theory/mitred_corner.md.
 """
@@ -20,7 +21,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from crumple.hinge import Coupling, SpatialHingeRecord
+from crumple.hinge import Coupling, Freedom, SpatialHingeRecord
+from crumple.hinge.record.record import Envelope, HingeRecord
 from crumple.section import Section
 from crumple.structure.hinges.corners import Corner
 
@@ -38,8 +40,13 @@ PLACES = np.linspace(0.0, 6.0 * FOLDED, 31)
 """Rotations at which the growth is given [rad]; beyond the last, 0.25 % are left."""
 
 
-def with_corner_slip(record: SpatialHingeRecord, corner: Corner, section: Section) -> SpatialHingeRecord:
-    """Record of a corner's hinge in a plane: the arm of a corner replaces that of a straight member."""
+def with_corner_slip(
+    record: SpatialHingeRecord, corner: Corner, section: Section, squash: float
+) -> SpatialHingeRecord:
+    """Record of a corner's hinge in a plane: the arm of a corner replaces that of a straight member.
+
+    `squash`: force at which all walls yield [N].
+    """
     surface = record.surface
     if surface.coupling is not Coupling.TENSION_FLANGE:
         return record
@@ -48,10 +55,37 @@ def with_corner_slip(record: SpatialHingeRecord, corner: Corner, section: Sectio
     # a step lies in the middle of the forces that it stands for
     gains = tuple((k * step, (k - 0.5) * FULL / SIDES) for k in range(1, SIDES + 1))
     growth = (PLACES, 1.0 - np.exp(-PLACES / FOLDED))
-    return replace(record, surface=replace(surface, arm=fold * surface.arm, gains=gains, growth=growth))
+    slip, bending = record.components
+    assert slip.freedom is Freedom.AXIAL
+    pressed, _ = pressed_slip(slip.record, bending.record, surface.arm, squash, fold)
+    surface = replace(surface, arm=fold * surface.arm, gains=gains, growth=growth)
+    return replace(record, components=(replace(slip, record=pressed), bending), surface=surface)
 
 
 def fold_share(corner: Corner, section: Section) -> float:
     """b, the arm of a fold without compression over the distance of the tension flange [-]."""
     depth = section.bending_depth(corner.axis) - section.thickness
     return max(LEAST, FOLD - STEEP * math.sin(0.5 * corner.angle) * section.thickness / depth)
+
+
+def pressed_slip(
+    slip: HingeRecord, bending: HingeRecord, arm: float, squash: float, fold: float
+) -> tuple[HingeRecord, float]:
+    """The slip's record with the smaller force in compression, and its weight in the measure of softening."""
+    laws = bending.positive, bending.negative
+    at_first = sum(float(law.moment[0]) for law in laws) / 2.0
+    first = (at_first / arm + (1.0 - fold) * FULL * squash / 2.0) / (1.0 - fold)
+    first = min(first, float(slip.negative.moment[0]))
+    turns = np.unique(np.concatenate([PLACES, *(law.rotation for law in laws)]))
+    moment = sum((np.interp(turns, law.rotation, law.moment) for law in laws), np.zeros(turns.size)) / 2.0
+    left = 1.0 - fold * np.exp(-turns / FOLDED)
+    force = (moment / arm + (1.0 - fold) * FULL * squash / 2.0) / left
+    # shortening of a corner that turns under this force
+    arms = moment / np.minimum(force, first)
+    way = np.concatenate([[0.0], np.cumsum(np.diff(turns) * (arms[1:] + arms[:-1]) / 2.0)])
+    weight = float(np.min(at_first * turns[1:] / (first * way[1:])))
+    ratio = first * weight / at_first
+    places = np.unique(np.concatenate([turns / ratio, slip.negative.rotation]))
+    folding = np.interp(places, slip.negative.rotation, slip.negative.moment)
+    pressed = np.minimum(np.interp(places, turns / ratio, force), folding)
+    return replace(slip, negative=Envelope(places, pressed)), weight
