@@ -3,13 +3,15 @@
     M(theta) = s_y Z m(theta; a/t, b/t, s_y/E, h)        theta: plastic rotation of the fold, h: hardening
 
 m is straight between the rotations of the table and held beyond its end.  The points were solved with shell
-sub-models at rest; the strain rate acts as in the formulas.  docs/theory/tube_library.md.
+sub-models at rest; the strain rate acts as in the formulas.  Rectangular tubes thicker than the thickest of
+the table, x_0, have its m times what the same step changes beside a clamp, m_c(x)/m_c(x_0), whose table has
+thicker ones.  docs/theory/tube_library.md.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import ClassVar, Self
 
@@ -30,6 +32,8 @@ SOURCE = Source(
     Trust.COMPUTED,
     "interpolated between tubes solved with shells; the band is the largest energy error at tubes left out",
 )
+BESIDE = "clamped_rectangular_tube"
+"""Table of folds of rectangular tubes beside a clamp, which has thicker tubes and the same rotations."""
 
 
 @dataclass(frozen=True)
@@ -83,7 +87,11 @@ class TubeLibraryLaw:
             If the section is no such tube, or outside the range of the library.
         """
         place = place_of_tube(section, material, axis)
-        return cls.at(tube_table(section.kind), place, section, material, axis)
+        table = tube_table(section.kind)
+        law = cls.at(table, place, section, material, axis)
+        if "ratio" not in place or place["slenderness"] >= table.ranges["slenderness"][0]:
+            return law
+        return replace(law, share=tuple((np.array(law.share) * _thicker(table, place)).tolist()))
 
     @classmethod
     def at(
@@ -93,7 +101,7 @@ class TubeLibraryLaw:
         share = table.moment(columns_of(table, place))
         end = float(table.rotation[-1])
         basis = f"interpolated between tubes solved with shells up to {math.degrees(end):.0f} deg"
-        band = table.band + band_beyond(table, section, place["yield_strain"])
+        band = table.band + band_beyond(table, section, place)
         return cls(
             material.yield_stress * section.plastic_section_modulus(axis),
             tuple(table.rotation.tolist()),
@@ -123,3 +131,11 @@ class TubeLibraryLaw:
     def rate_factor(self, rotation_rate: ArrayLike) -> Floats:
         """Factor on the capacity at a rotation rate [rad/s]."""
         return rate_factor(self.rate, rotation_rate)
+
+
+def _thicker(table: TubeTable, place: dict[str, float]) -> Floats:
+    """M of a fold beside a clamp over that of the thickest tube of a table of free folds, (k,)."""
+    beside = tube_table(BESIDE)
+    thickest = {**place, "slenderness": table.ranges["slenderness"][0]}
+    own, least = (beside.moment(columns_of(beside, one)) for one in (place, thickest))
+    return np.asarray(own / least, np.float64)

@@ -22,7 +22,7 @@ YIELD = Material("steel", 210e9, 0.3, 7850.0, 350e6)
 STEEL = replace(YIELD, hardening=Swift(350e6, 0.01, 0.15))
 SOFT = Material("soft steel", 210e9, 0.3, 7850.0, 190e6, hardening=Swift(190e6, 0.01, 0.15))
 TUBE, ROUND = RectangularTube(0.060, 0.045, 0.002), CircularTube(0.060, 0.002)
-THICK = RectangularTube(0.050, 0.050, 0.0035)
+THICK = RectangularTube(0.050, 0.050, 0.0055)
 DEEP = RectangularTube(0.040, 0.060, 0.002)
 # between its points a table is straight, and so is the effect of hardening
 AT = np.append(tube_table("rectangular_tube").rotation, 1.0)
@@ -88,6 +88,9 @@ def test_the_curve_goes_before_a_flow_stress_that_is_given():
         (TUBE, STEEL, "free", "library"),
         (THICK, STEEL, "free", "hardening_tube"),
         (TUBE, YIELD, "clamped", "kecman"),
+        (replace(TUBE, thickness=TUBE.width / 15.0), YIELD, "clamped", "kecman"),
+        (replace(TUBE, thickness=TUBE.width / 14.9), YIELD, "clamped", "clamped_tube"),
+        (THICK, YIELD, "clamped", "kecman"),
         (TUBE, replace(YIELD, given_flow_stress=450e6), "clamped", "kecman"),
         (DEEP, YIELD, "clamped", "clamped_tube"),
         (replace(DEEP, width=0.92 * DEEP.depth), YIELD, "clamped", "kecman"),

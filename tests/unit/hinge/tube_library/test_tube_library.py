@@ -8,6 +8,7 @@ import pytest
 from crumple.errors import InputError
 from crumple.hinge import Trust, build_law
 from crumple.hinge.record.sensitivity import capacity_sensitivity
+from crumple.hinge.tube_library.clamped import clamped_fold_distance
 from crumple.hinge.tube_library.tube import hardening_ratio
 from crumple.material import CowperSymonds, Material
 from crumple.material.hardening.swift import Swift
@@ -113,6 +114,46 @@ def test_soft_metals_and_rounded_corners_have_the_law_of_the_nearest_tube_with_a
     assert narrow.share == known.share
     assert narrow.plastic_moment < 0.97 * known.plastic_moment
     assert narrow.validity.uncertainty == pytest.approx(known.validity.uncertainty + 0.2)
+
+
+@pytest.mark.parametrize("name", ["library", "clamped_tube"])
+def test_a_tube_below_fifteen_walls_has_the_law_of_fifteen_with_a_wider_band(name):
+    side = 0.030
+    known, thick, thickest = (
+        build_law(name, RectangularTube(side, side, side / walls), STEEL, "y") for walls in (15.0, 12.0, 10.0)
+    )
+    assert thick.share == pytest.approx(known.share, rel=1e-12)
+    modulus = RectangularTube(side, side, side / 12.0).plastic_section_modulus("y")
+    assert thick.plastic_moment == pytest.approx(350e6 * modulus)
+    assert known.validity.uncertainty < thick.validity.uncertainty < thickest.validity.uncertainty
+    with pytest.raises(InputError, match=r"larger side over thickness[\s\S]*9.9[\s\S]*10 to 60"):
+        build_law(name, RectangularTube(side, side, side / 9.9), STEEL, "y")
+
+
+@pytest.mark.parametrize("walls", [15.0, 18.5])
+@pytest.mark.parametrize("name", ["library", "clamped_tube"])
+def test_no_law_jumps_where_solved_tubes_end(name, walls):
+    hard = replace(STEEL, hardening=Swift(350e6, 0.01, 0.15))
+    for metal, ratio in ((STEEL, 1.0), (hard, 0.75), (hard, 1.6)):
+        tubes = [
+            RectangularTube(0.04 * ratio, 0.04, 0.04 * max(ratio, 1.0) / (walls * step))
+            for step in (1.0 - 1e-6, 1.0 + 1e-6)
+        ]
+        given = {"span": 0.15, "distance": 0.012} if name == "clamped_tube" else {}
+        thick, thin = (build_law(name, tube, metal, "y", **given) for tube in tubes)
+        assert thick.share == pytest.approx(thin.share, rel=1e-4)
+        assert thick.validity.uncertainty == pytest.approx(thin.validity.uncertainty, abs=1e-4)
+        places = [clamped_fold_distance(tube, metal, "y") for tube in tubes]
+        assert places[0] == pytest.approx(places[1], rel=1e-4)
+
+
+def test_a_thick_free_fold_changes_with_its_wall_as_one_beside_a_clamp():
+    thick, thin = (RectangularTube(0.03, 0.03, 0.03 / walls) for walls in (16.0, 18.5))
+    free, clamped = (
+        [np.array(build_law(name, tube, STEEL, "y").share) for tube in (thick, thin)]
+        for name in ("library", "clamped_tube")
+    )
+    np.testing.assert_allclose(free[0] / free[1], clamped[0] / clamped[1], rtol=1e-12)
 
 
 def test_every_coordinate_that_is_out_of_range_is_named():
