@@ -3,10 +3,10 @@
 The laws are those of 15 walls beside a clamp; of free folds those of 18.5 walls, times what the same step
 changes beside a clamp.  Shells on the nominal mesh of the library (8 elements along half a fold), solved by
 `python -m tools.tube_library.thick solve`: tubes that were listed before they were solved, and by which
-nothing was chosen.  Expected: work over M_p up to 10, 20 and 30 degrees.  Found: -9 to 0 % up to 20 and -15 to +1 % up to
-30 degrees; of cantilevers of 2.5 larger sides -5 to +14 and 0 to +19 %.  Tolerances: 10 and 15 %, of short
-ones 15 and 20 %.  The formula takes 11 to 12 % more up to 20 degrees in square tubes that do not harden, and
-37 to 38 % more in short ones.
+nothing was chosen.  Expected: work over M_p up to 10, 20 and 30 degrees.  Found: -9 to 0 % up to 20 and -15
+to +1 % up to 30 degrees; of cantilevers of 2.5 larger sides -5 to +14 and 0 to +19 %.  Tolerances: 10 and
+15 %, of short ones 15 and 20 %.  The formula takes 11 to 12 % more up to 20 degrees in square tubes that do
+not harden, and 37 to 38 % more in short ones.
 
 Kind: independent calculation.  Source: run here.
 """
