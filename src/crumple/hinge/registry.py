@@ -102,8 +102,6 @@ FOLD_BENDING: dict[Fold, dict[str, str]] = {
 """Law that goes before the formula in such folds: docs/theory/tube_library.md."""
 DEEP = 0.9
 """Flange width over depth up to which it does so at rectangular tubes beside a clamp that do not harden."""
-STOCKY = 15.0
-"""Larger side over wall below which it does so at all; formulas take up to 13 % too much to 20 deg there."""
 HARDENING_BENDING = {"rectangular_tube": "hardening_tube", "circular_tube": "hardening_tube"}
 """Law that goes before the formula if the metal has a hardening curve."""
 HARDENING_SECTION = "hardening_section"

@@ -33,7 +33,6 @@ from crumple.hinge.registry import (
     FOLD_BENDING,
     HARDENING_BENDING,
     HARDENING_SECTION,
-    STOCKY,
     Fold,
     build_law,
 )
@@ -198,16 +197,14 @@ def automatic_type(
 
 def _laws_of_fold(section: Section, material: Material, axis: Axis, fold: Fold | None) -> Mapping[str, str]:
     """Laws that go before the formula in a fold, by the kind of section."""
-    if fold is None or (fold == "clamped" and not hardens(material) and _keeps_formula(section, axis)):
+    if fold is None or (fold == "clamped" and not hardens(material) and _is_wide(section, axis)):
         return {}
     return FOLD_BENDING[fold]
 
 
-def _keeps_formula(section: Section, axis: Axis) -> bool:
-    """Whether a tube is so wide and slender that its formula is kept where its metal does not harden."""
+def _is_wide(section: Section, axis: Axis) -> bool:
     flange, depth = section.flange_width(axis), section.bending_depth(axis)
-    slender = max(flange, depth) >= STOCKY * section.thickness * (1.0 - 1e-9)
-    return isinstance(section, RectangularTube) and flange > DEEP * depth and slender
+    return isinstance(section, RectangularTube) and flange > DEEP * depth
 
 
 def _has_stocky_edges(section: Section, material: Material) -> bool:
