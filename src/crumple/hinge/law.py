@@ -23,6 +23,9 @@ from crumple.numeric.arrays import Floats
 
 BEYOND_RANGE = "Use a law from shells that holds there (crumple characterise), or solve with shells."
 """What to do about a rotation beyond the range of a law."""
+NEGLIGIBLE = float(np.radians(0.5))
+"""Plastic rotation [rad] up to which a law without a range is not judged: no fold has begun, and what it
+takes is a few percent of what one takes.  Hinges creep by as much about the axis that they hardly bend about."""
 
 
 class SofteningVariable(Enum):
@@ -80,6 +83,10 @@ class Validity:
     warnings: tuple[str, ...] = ()
     uncertainty: float | None = None
 
+    def is_left_at(self, rotation: float) -> bool:
+        """Whether a rotation [rad] of the softening variable lies beyond the range (see `left_range`)."""
+        return left_range(self.rotation_max, rotation)
+
     def warning_at(self, rotation: float) -> str | None:
         """Warning for a rotation [rad] of the softening variable beyond the range, else None."""
         if rotation <= self.rotation_max:
@@ -93,6 +100,11 @@ class Validity:
         if self.rotation_max <= 0.0:
             return f"has no range of validity ({self.basis})"
         return f"is valid up to {np.degrees(self.rotation_max):.1f} deg only ({self.basis})"
+
+
+def left_range(limit: float, rotation: float) -> bool:
+    """Whether a rotation lies beyond the limit of a law [rad]; a limit of 0 says that it has no range."""
+    return rotation > (limit if limit > 0.0 else NEGLIGIBLE)
 
 
 @runtime_checkable

@@ -39,7 +39,8 @@ def test_a_store_is_used_where_it_is_named_and_frozen_with_the_same_answer(tmp_p
     first = run("run", FRAME, "--laws", store, "--freeze-laws", frozen, "--out", tmp_path / "a")
     assert first.exit_code == 0, first.output
     assert f"Store of laws: {store}, 1 used" in first.output
-    assert "Law of corner-corner: stored" in first.output
+    assert "Law of corner-corner: file: stored" in first.output
+    assert "Law of post-foot: kecman: formula, band" in first.output
     assert frozen.read_text(encoding="utf-8").count("crumple_law: 1") == 1
     assert run("run", FRAME, "--laws", frozen, "--out", tmp_path / "b").exit_code == 0
     histories = [(tmp_path / name / "histories.csv").read_bytes() for name in "ab"]
@@ -70,7 +71,7 @@ def test_a_law_without_a_checksum_is_used_and_says_so(tmp_path):
     found = run("run", FRAME, "--laws", store, "--out", tmp_path / "a", "--no-law-range", "--no-modes")
     assert found.exit_code == 0, found.output
     assert f"Store of laws: {store}, 1 used, 1 without a checksum (edited, or" in found.output
-    assert "Law of corner-corner: stored, from shells, without a checksum" in found.output
+    assert "Law of corner-corner: file: stored, from shells, without a checksum" in found.output
     summary = json.loads((tmp_path / "a" / "summary.json").read_text(encoding="utf-8"))
     sure = {name: hinge["law_use"]["has_checksum"] for name, hinge in summary["hinges"].items()}
     assert sure == {"post-foot": True, "corner-corner": False}

@@ -78,13 +78,26 @@ def law_lines(result: Result, source: LoadedInput) -> Iterator[str]:
     store = source.analysis.structure.laws
     if store is not None:
         yield f"Store of laws: {store.name}, {len(store.texts)} used{_of_store(store.texts, source.path)}"
-    for sentence, names in grouped(result.hinges, str(source.path)).items():
-        shown = ", ".join(names[:MOST_NAMES])
-        more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
-        yield f"Law of {shown}{more}: {sentence}"
+    for sentence, names in grouped(result.hinges, str(source.path), _types(source)).items():
+        yield f"Law of {_some(names)}: {sentence}"
     for sentence, names in crushing_laws(result):
-        more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
-        yield f"Crushing of {', '.join(names[:MOST_NAMES])}{more}: {sentence}"
+        yield f"Crushing of {_some(names)}: {sentence}"
+
+
+def _some(names: Sequence[str]) -> str:
+    """Number and names of some hinges, or the name of one."""
+    if len(names) == 1:
+        return names[0]
+    more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
+    return f"{len(names)} hinges ({', '.join(names[:MOST_NAMES])}{more})"
+
+
+def _types(source: LoadedInput) -> Mapping[str, str]:
+    """Type of the law of every hinge, as in the input file."""
+    from crumple.structure import law_types_of, with_elastic_members
+
+    analysis = source.analysis
+    return law_types_of(with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion))
 
 
 def _of_store(texts: Sequence[str], file: Path) -> str:
@@ -141,10 +154,11 @@ def with_range(result: Result, source: LoadedInput, threads: int, cancel: Callab
         return result
 
 
-def grouped(hinges: Mapping[str, HingeSummary], file: str) -> dict[str, list[str]]:
-    """Names of hinges by the sentence on the origin of their law."""
+def grouped(hinges: Mapping[str, HingeSummary], file: str, types: Mapping[str, str]) -> dict[str, list[str]]:
+    """Names of hinges by the type of their law, and the sentence on its origin."""
     found: dict[str, list[str]] = {}
     for name, hinge in hinges.items():
         if hinge.law_use is not None:
-            found.setdefault(hinge.law_use.sentence(file), []).append(name)
+            kind = f"{types[name]}: " if name in types else ""
+            found.setdefault(kind + hinge.law_use.sentence(file), []).append(name)
     return found

@@ -124,13 +124,13 @@ def _ranges(comparison: Comparison, hinges: dict[str, PlacedHinge]) -> Iterator[
                     f"angle of its law ({deg(jams)}). The moment beyond it is not supported by evidence.",
                     True,
                 )
-            elif reached > limit:
+            elif hinge.law.validity.is_left_at(reached):
                 yield (
                     f"Hinge {name} reaches {deg(reached)} in the {source.name} result, outside the range "
                     f"of its law (up to {deg(limit)}: {hinge.law.validity.basis}).",
                     True,
                 )
-            else:
+            elif reached <= limit:
                 inside.append((name, source.name))
     both = [
         n for n in hinges if all((n, s.name) in inside for s in (comparison.candidate, comparison.reference))

@@ -73,8 +73,10 @@ def _other_warnings(section: RectangularTube, material: Material, peak: PeakMome
     warnings = []
     if peak.regime is not Regime.FULLY_PLASTIC:
         warnings.append(
-            f"the flange buckles at {peak.buckling_ratio:.2f} times the yield stress: the reduced largest "
-            "moment is not validated by finite elements"
+            f"the compressed wall is slender (it buckles elastically at {peak.buckling_ratio:.2f} times the "
+            "yield stress; below 2 times it the law lowers the largest moment, here to "
+            f"{peak.moment / peak.plastic_moment:.0%} of the plastic one), and that was not compared with "
+            "finite elements"
         )
     if peak.web_buckling_ratio < 2.0:
         warnings.append(

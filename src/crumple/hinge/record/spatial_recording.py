@@ -207,7 +207,15 @@ def _flange_problems(components: tuple[HingeComponent, ...], arm: float) -> list
     problems = []
     if freedoms not in ({Freedom.AXIAL, Freedom.Y}, {Freedom.AXIAL, Freedom.Z}):
         what = "a fold about its tension flange has one bending axis and the axial slip"
-        problems.append(Problem(what, _names(components), "axial and y, or axial and z", "", "coupling"))
+        came = _names(components)
+        todo = ""
+        if {Freedom.Y, Freedom.Z} <= freedoms:
+            if Freedom.X in freedoms:
+                came += " (automatic hinges of a spatial frame bend about both axes and twist)"
+            todo = "write the axis beside it, as axes: [y] or axes: [z], or leave out the coupling"
+        elif Freedom.AXIAL not in freedoms:
+            todo = "write axial: true beside it, or leave out the coupling"
+        problems.append(Problem(what, came, "axial and y, or axial and z", todo, "coupling"))
     if components[0].record.form is Form.REGULARISED:
         what, todo = "a fold about its tension flange has no regularised form", "choose another form"
         problems.append(Problem(what, "regularised", "set-valued, elastic-plastic", todo, "coupling"))

@@ -98,10 +98,11 @@ class HingeHistory:
     def judged_by(self) -> tuple[Axis, HingeLaw, float]:
         """Of `bent_by_law` the one by which the hinge is judged.
 
-        One beyond its range, else that of the largest rotation; if nothing yielded, its first axis and 0.
+        One beyond its range, of these and else that of the largest rotation; if nothing yielded, its first
+        axis and 0.
         """
         bent = self.bent_by_law()
-        beyond = [one for one in bent if one[2] > one[1].validity.rotation_max]
+        beyond = [one for one in bent if one[1].validity.is_left_at(one[2])]
         at_rest = (self.hinge.axis, self.hinge.law, 0.0)
         return max(beyond or bent, key=lambda one: one[2], default=at_rest)
 

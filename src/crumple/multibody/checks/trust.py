@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from crumple.hinge import Form, Freedom, SofteningVariable
-from crumple.hinge.law import BEYOND_RANGE
+from crumple.hinge.law import BEYOND_RANGE, HingeLaw
 from crumple.multibody.answer.crush import crush_of
 from crumple.multibody.answer.solved import HingeHistory, Solved, Solver
 from crumple.multibody.bodies.crumpling_ends import crumpling_ends
@@ -50,6 +50,9 @@ LOCKED = (
     " If members must change their length for it, as in a triangle, give their hinges 'axial: true', or "
     "solve with shells."
 )
+NEARLY = 0.8
+"""Share of its first moment from which a hinge at rest is told what is unsure of its law: the laws' own
+scatter; a hinge that is loaded less stays at rest in spite of it."""
 OFF_AXIS = 0.5
 """Angle [deg] between a hinge's axis and the normal of the plane above which bending across counts."""
 SOFTENING = {
@@ -266,10 +269,10 @@ def _of_hinge(structure: Structure, history: HingeHistory) -> Iterator[tuple[str
     """
     hinge = history.hinge
     bent = history.bent_by_law()
-    # what its law says of section and metal holds for a hinge at rest, too
+    # what its law says of section and metal matters where the hinge folds or is about to
     told = [
         text
-        for law in dict.fromkeys(law for _, law, _ in bent) or (hinge.law,)
+        for law in dict.fromkeys(law for _, law, _ in bent) or _nearly_bent(history)
         for text in law.validity.warnings
     ]
     yield from ((_literal(text), 0.0) for text in told)
@@ -277,12 +280,14 @@ def _of_hinge(structure: Structure, history: HingeHistory) -> Iterator[tuple[str
     if hinge.spatial is not None and crush_of(structure, history) is not None:
         along = [text for part in hinge.spatial.components for text in part.warnings if text not in told]
         yield from ((f"crushing along the member: {_literal(text)}", 0.0) for text in along)
-    for _, law, turned in bent:
+    several = len(set(hinge.laws.values())) > 1
+    for axis, law, turned in bent:
         jammed = law.jamming_angle is not None and turned > law.jamming_angle
         # a closed fold has a caution of its own
-        if not jammed and turned > law.validity.rotation_max:
+        if not jammed and law.validity.is_left_at(turned):
             limit = _literal(law.validity.range_text)
-            yield f"turned by {{turned}} deg; the law {limit}. {BEYOND_RANGE}", turned
+            about = f" about the section's {axis} axis; there" if several else ";"
+            yield f"turned by {{turned}} deg{about} the law {limit}. {BEYOND_RANGE}", turned
     normal = structure.normal_of(hinge.member)
     if normal is not None and not _bends_both_ways(hinge):
         off = math.degrees(math.acos(min(1.0, abs(float(hinge.direction @ np.asarray(normal))))))
@@ -292,6 +297,13 @@ def _of_hinge(structure: Structure, history: HingeHistory) -> Iterator[tuple[str
                 "bending; what bends it across is carried rigidly: set up, roll or axis of the member",
                 0.0,
             )
+
+
+def _nearly_bent(history: HingeHistory) -> tuple[HingeLaw, ...]:
+    """Law of a hinge at rest whose moment came close to what it carries; none of others."""
+    law = history.hinge.law
+    least = min(float(law.moment_capacity(0.0, sense)) for sense in (1, -1))
+    return (law,) if history.moment_max >= NEARLY * least else ()
 
 
 def _literal(text: str) -> str:

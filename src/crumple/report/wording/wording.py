@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from crumple.hinge.law import BEYOND_RANGE
+from crumple.hinge.law import BEYOND_RANGE, left_range
 from crumple.hinge.law_use import INPUT
 from crumple.numeric.ranking import largest_first
 from crumple.report.drawing.scales import display_unit, output_groups
@@ -115,7 +115,7 @@ def outside_range(result: Result, name: str) -> str:
     hinge = result.hinges[name]
     limit = hinge.validity_rotation
     reached = _judged_rotation(hinge)
-    if limit is None or not reached > limit:
+    if limit is None or not left_range(limit, reached):
         return ""
     if limit <= 0.0:
         return f"Hinge {name} turned {angle(reached)}; its law has no range of validity. {BEYOND_RANGE}"

@@ -43,7 +43,7 @@ def test_range_ends_at_jamming_where_that_comes_first():
         ((0.025, 0.050, 0.00265), "thick flange"),
         ((0.025, 0.050, 0.00290), "outside the range of Kecman's tests, 9.14"),
         ((0.100, 0.030, 0.002), "outside the range of Kecman's tests, 0.33"),
-        ((0.100, 0.100, 0.002), "flange buckles"),
+        ((0.100, 0.100, 0.002), "the law lowers the largest moment, here to 86% of"),
         ((0.060, 0.180, 0.001), "slender webs"),
         ((0.050, 0.025, 0.00265, 0.005), "rounded corners"),
     ],

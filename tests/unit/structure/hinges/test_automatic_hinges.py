@@ -115,6 +115,20 @@ def test_folds_about_their_tension_flange_get_no_twist_that_their_coupling_would
     assert all(set(hinge.spatial.freedoms) == {Freedom.AXIAL, Freedom.Y} for hinge in found)
 
 
+def test_a_coupling_that_does_not_fit_automatic_hinges_in_space_says_which_axes_they_have():
+    members = {name: parts | {"elastic": 6} for name, parts in FRAME.items()}
+    members["ce"] = member("c", "e") | {"hinges": (), "elastic": 6}
+    nodes = {name: NODES[name] for name in "abc"} | {"e": (1.0, 0.7, 1.2)}
+    asked = {"axial": True, "coupling": "tension-flange"}
+    with pytest.raises(InputError) as refusal:
+        placed_hinges(structure(nodes, members, hinges=asked, supports=CLAMP))
+    problem = refusal.value.problems[0]
+    assert (
+        problem.came == "axial, x, y, z (automatic hinges of a spatial frame bend about both axes and twist)"
+    )
+    assert "axes: [y] or axes: [z]" in problem.todo
+
+
 def test_the_law_of_candidates_is_the_one_given():
     (first, *_) = placed_hinges(frame({"law": LAW}))
     assert first.record.positive.moment[0] == pytest.approx(LAW["moment"])
