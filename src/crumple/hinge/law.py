@@ -25,7 +25,7 @@ BEYOND_RANGE = "Use a law from shells that holds there (crumple characterise), o
 """What to do about a rotation beyond the range of a law."""
 NEGLIGIBLE = float(np.radians(0.5))
 """Plastic rotation [rad] up to which a law without a range is not judged: no fold has begun, and what it
-takes is a few percent of what one takes.  Hinges creep by as much about the axis that they hardly bend about."""
+takes is a few percent of what one takes.  Hinges creep by as much about the axis across their fold."""
 
 
 class SofteningVariable(Enum):

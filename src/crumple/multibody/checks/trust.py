@@ -21,7 +21,7 @@ from crumple.multibody.checks.held_parts import held_part_warnings
 from crumple.multibody.checks.names import named
 from crumple.multibody.checks.overlap import overlap_warnings
 from crumple.multibody.checks.physics import energy_put_in
-from crumple.multibody.checks.struck import struck_near_ends, undented
+from crumple.multibody.checks.struck import struck_near_ends, too_stiff_hats, undented
 from crumple.multibody.checks.stuck_drives import loose_drives
 from crumple.multibody.run import Run
 from crumple.result import HingeSummary
@@ -191,6 +191,7 @@ def warnings(
         found.append(f"{named('Hinge', list(by_name))}: {text.format(turned=span)}")
     found += broken_warnings(solved.hinges)
     found += [*struck_near_ends(structure, solved), *undented(structure, solved)]
+    found += too_stiff_hats(structure, solved)
     found += overlap_warnings(structure)
     found += held_part_warnings(structure, solved)
     found += loose_drives(structure, link(structure))

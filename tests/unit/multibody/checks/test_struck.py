@@ -203,6 +203,46 @@ def test_a_post_that_sways_is_not_dented_as_its_law_assumes(held):
     assert f"it is {1e3 * dent.depth:.4g} mm deep, which leaves 70%" in text
 
 
+HAT = """crumple: 1
+materials: {s: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 350 MPa}}
+sections: {hat: {type: closed_hat, width: WIDTH mm, depth: 50 mm, thickness: 1.6 mm, flange: 18 mm}}
+nodes: {a: [0 m, 0 m, 0 m], b: [0.9 m, 0 m, 0 m]}
+members: {beam: {nodes: [a, b], section: hat, material: s, up: [0, 0, 1]}}
+hinges: auto
+supports: {a: {node: a, fix: all}, b: {node: b, fix: all}}
+obstacles:
+  pole: {type: cylinder, point: [0.45 m, 0 m, HEIGHT mm], axis: [0, 1, 0], radius: RADIUS mm, mass: 100 kg,
+         velocity: [0 m/s, 0 m/s, -SPEED m/s], guide: [0, 0, 1], friction: 0}
+analysis: {duration: 24 ms}
+"""
+
+
+@pytest.mark.parametrize(
+    ("width", "radius", "speed", "told"),
+    [
+        (60, 100, 3.5, True),
+        (60, 100, 1.2, False),
+        (60, 100, 5, False),
+        (60, 130, 3.5, False),
+        (45, 100, 3.5, False),
+    ],
+)
+def test_a_hat_into_whose_fold_a_pole_would_sink_is_named(width, radius, speed, told):
+    """Not one that hardly folds, is dented deeply, lies under a wider pole, or has a stockier crown."""
+    sizes = {"WIDTH": width, "RADIUS": radius, "SPEED": speed, "HEIGHT": radius + 35}
+    text = HAT
+    for word, size in sizes.items():
+        text = text.replace(word, f"{size}")
+    result = solve(loads(text), checks=False)
+    said = [one for one in result.warnings if "the crown of the hat is too stiff" in one]
+    assert len(said) == told
+    if told:
+        assert said[0].startswith(
+            "Member beam: the crown of the hat is too stiff under obstacle pole: its dent"
+        )
+        assert f" {1e3 * result.dents[0].depth:.4g} mm deep" in said[0]
+
+
 SWEEP = (
     SWAYS[: SWAYS.index("obstacles:")].replace("HELD", "")
     + """obstacles:
