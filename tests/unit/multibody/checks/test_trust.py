@@ -137,9 +137,9 @@ def test_what_a_hinge_creeps_about_its_other_axis_is_outside_of_no_range() -> No
 
 def test_doubts_about_a_law_are_told_of_hinges_that_fold_or_nearly_do() -> None:
     """A clamped foot that carries a tenth of its moment stays silent; one that yields does not."""
-    estimate = {"type": "estimate", "rate": "off"}
-    assert not about(post(estimate, 1.0, law=estimate), "Hinge foot")
-    assert about(post(estimate, 60.0, law=estimate), "Hinge foot")
+    constant = {"type": "constant", "rate": "off"}
+    assert not about(post(constant, 1.0, law=constant), "a constant capacity")
+    assert about(post(constant, 60.0, law=constant), "a constant capacity")
 
 
 def test_of_two_axes_that_yield_the_one_beyond_its_range_is_judged() -> None:
