@@ -24,7 +24,7 @@ def base_of(folder, hinges="hinges: auto"):
 
 
 def study_of(
-    folder, hinges="hinges: auto", variable="{path: sections.tube.thickness, values: [2 mm, 3 mm, 5 mm]}"
+    folder, hinges="hinges: auto", variable="{path: sections.tube.thickness, values: [2 mm, 3 mm, 7 mm]}"
 ):
     base_of(folder, hinges)
     file = folder / "study.yaml"
@@ -44,7 +44,7 @@ def test_table_console_and_page_say_between_which_rows_a_law_changes(tmp_path, r
     code, said, _ = run_command("study", study_of(tmp_path), "--out", out, "--shapes", 0)
     assert code == 0
     assert (
-        f"{CHANGES} (2 rows) to kecman (1 row); the closest are row 1 (wall 3 mm) and row 2 (wall 5 mm)"
+        f"{CHANGES} (2 rows) to kecman (1 row); the closest are row 1 (wall 3 mm) and row 2 (wall 7 mm)"
         in said
     )
     (change,) = json.loads((out / "study.json").read_text())["law_changes"]
@@ -78,7 +78,7 @@ def test_words_change_laws_too(tmp_path):
     variable = "{path: members.tube.section, values: [tube, thick]}"
     file = study_of(tmp_path, variable=variable)
     base = tmp_path / "base.yaml"
-    thick = "sections:\n  thick: {type: rectangular_tube, width: 50 mm, depth: 60 mm, thickness: 5 mm}\n"
+    thick = "sections:\n  thick: {type: rectangular_tube, width: 50 mm, depth: 60 mm, thickness: 7 mm}\n"
     base.write_text(base.read_text(encoding="utf-8").replace("sections:\n", thick), encoding="utf-8")
     (change,) = run_study(LoadedStudy(file), tmp_path)[1].law_changes
     assert "row 0 (wall tube) and row 1 (wall thick)" in change["text"]
@@ -107,10 +107,10 @@ def test_hinges_that_change_alike_are_one_caution():
 def test_a_grid_of_sliders_says_it_on_its_page_and_console(tmp_path, run_command):
     file = base_of(tmp_path)
     source = load_input(Path(file))
-    sliders = sliders_of("thickness=2 mm..6 mm", source.analysis, source.document.data)
+    sliders = sliders_of("thickness=4 mm..8 mm", source.analysis, source.document.data)
     (caution,) = law_cautions(source.analysis, sliders, explore(source.analysis, sliders))
-    assert "variant 4 (sections.tube.thickness 4 mm) and variant 5" in caution
+    assert "variant 4 (sections.tube.thickness 6 mm) and variant 5" in caution
     out = tmp_path / "out"
-    said = run_command("run", file, "--out", out, "--explore", "thickness=2 mm..6 mm")[1]
+    said = run_command("run", file, "--out", out, "--explore", "thickness=4 mm..8 mm")[1]
     assert caution in said
     assert "The law of hinge tube-root" in (out / "explore.html").read_text().replace("Caution: the", "The")

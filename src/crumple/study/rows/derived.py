@@ -12,6 +12,7 @@ from crumple.analysis.criteria import Measured
 from crumple.analysis.filters import LEAST_SAMPLES
 from crumple.numeric.arrays import Floats
 from crumple.result import ChannelClass, cfc
+from crumple.result.filters import value_before
 from crumple.structure import Outputs
 
 if TYPE_CHECKING:
@@ -30,11 +31,14 @@ class Source:
         Whether it is its slope over time: mean accelerations between outputs are that of velocities.
     channel_class
         Of the filter; None without one.
+    before
+        Value before the run, for the filter.
     """
 
     raw: str
     slope: bool = False
     channel_class: ChannelClass | None = None
+    before: float | None = None
 
     @classmethod
     def of(cls, channel: str, outputs: Outputs) -> Source:
@@ -44,7 +48,7 @@ class Source:
         parts = channel.split(".")
         slope = parts[0] == "node" and parts[2:3] == ["acceleration"]
         raw = ".".join([*parts[:2], "velocity", *parts[3:]]) if slope else channel
-        return cls(raw, slope, wanted)
+        return cls(raw, slope, wanted, value_before(channel))
 
     @property
     def derived(self) -> bool:
@@ -79,7 +83,8 @@ class Source:
         regular = np.arange(math.floor(outputs[-1] / every + 1e-9) + 1) * every
         if regular.size < LEAST_SAMPLES:
             return np.full(outputs.size, np.nan)
-        smooth = cfc(np.interp(regular, outputs, values), every, self.channel_class)
+        even = np.interp(regular, outputs, values)
+        smooth = cfc(even, every, self.channel_class, before=self.before)
         return np.asarray(np.interp(outputs, regular, smooth))
 
 
