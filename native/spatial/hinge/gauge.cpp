@@ -135,10 +135,10 @@ GaugeAt with_torque(const Surface& s, int n, const double* x, const GaugeAt& d, 
 
 GaugeAt gauge_at(const Surface& s, int n, const double* x, Order order) {
     const GaugeAt direct = s.axisymmetric ? axisymmetric_gauge(s, n, x, order)
-                         : n == 1   ? direct_gauge<1>(s, x, order)
-                         : n == 2 ? direct_gauge<2>(s, x, order)
-                         : n == 3 ? direct_gauge<3>(s, x, order)
-                                  : direct_gauge<4>(s, x, order);
+                           : n == 1       ? direct_gauge<1>(s, x, order)
+                           : n == 2       ? direct_gauge<2>(s, x, order)
+                           : n == 3       ? direct_gauge<3>(s, x, order)
+                                          : direct_gauge<4>(s, x, order);
     return s.torsion < 0 ? direct : with_torque(s, n, x, direct, order);
 }
 

@@ -166,3 +166,29 @@ def test_beside_a_moment_the_square_of_the_share_of_the_axial_force_is_spread():
     assert sum(energy for energy in after if energy > 0.03 * sum(after)) == pytest.approx(
         0.75 * sum(before), rel=0.02
     )
+
+
+DIVIDED = (
+    COLUMN.replace("WAY", "-4 mm")
+    .replace("nodes: {foot: ", "nodes: {middle: [0 m, 0 m, 0.12 m], foot: ")
+    .replace("members: {column: {nodes: [foot, head], section: tube, material: steel}}", "members: MEMBERS")
+)
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper"), [("foot, middle", "middle, head"), ("middle, foot", "head, middle")]
+)
+def test_a_node_in_a_column_does_not_divide_what_is_spread(lower, upper):
+    """Whichever member the hinge at it belongs to, and wherever members begin."""
+    members = ", ".join(
+        f"{name}: {{nodes: [{nodes}], section: tube, material: steel}}"
+        for name, nodes in (("lower", lower), ("upper", upper))
+    )
+    analysis = loads(DIVIDED.replace("MEMBERS", f"{{{members}}}"), file="column.yaml", directory=".")
+    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
+    result = solve(with_frames(analysis))
+    works = hinge_work(result, structure)
+    total = float(result["energy.dissipated"][-1])
+    assert sum(energy for _, _, energy in works) == pytest.approx(total, rel=1e-3)
+    below = sum(energy for member, _, energy in works if member == "lower")
+    assert below == pytest.approx(0.4 * total, rel=0.05)

@@ -195,3 +195,12 @@ def test_in_space_it_only_turns_where_nothing_presses_a_member_along_its_axis(ca
     spatial = corner(**({"hinges": SPACE} | case)).spatial
     assert Freedom.AXIAL not in spatial.freedoms
     assert spatial.surface.coupling is Coupling.ELLIPSOID
+
+
+@pytest.mark.parametrize("hinges", ["auto", SPACE])
+def test_unasked_its_walls_fold_as_those_of_a_compressed_tube(hinges):
+    slip = next(part for part in corner(hinges).spatial.components if part.freedom is Freedom.AXIAL)
+    asked = "{axial: true}" if hinges == "auto" else "{axes: [x, y, z], axial: true}"
+    plain = next(part for part in corner(asked).spatial.components if part.freedom is Freedom.AXIAL)
+    assert "superfolding" in slip.origin.lower()
+    assert plain.origin != slip.origin
