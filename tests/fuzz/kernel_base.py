@@ -67,7 +67,7 @@ PLANAR: dict[str, Any] = {
 COMPONENTS = [{"freedom": freedom, **CURVES} for freedom in (4, 5)]
 SURFACE = {"coupling": 3, "rows": [1.0, 0.5, 0.5, 1.0], "power": 2.0, "torque_power": 2.0}
 SURFACE |= {"torsion": -1, "axisymmetric": False, "arm": 0.0, "arm_gains": [], "arm_gain_shares": []}
-SURFACE |= {"growth_rotation": [], "growth_share": []}
+SURFACE |= {"growth_rotation": [], "growth_share": [], "shortened_turn": 0.0}
 SPATIAL: dict[str, Any] = {
     "model": {
         "mass": np.ones(2),

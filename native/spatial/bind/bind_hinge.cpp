@@ -60,6 +60,7 @@ nb::dict state_of(const Element& e) {
     d["total_moment"] = total;
     d["capacity"] = capacity;
     d["softening"] = s.softening;
+    d["softening_of"] = Doubles(s.softening_of, s.softening_of + size(e.hinge));
     d["dissipated"] = dissipated(e.hinge, s);
     d["damped"] = damped(e.hinge, s);
     d["stop_dissipated"] = stop_dissipated(e.hinge, s);
@@ -105,6 +106,8 @@ Surface make_surface(const nb::dict& d, int n) {
     s.torsion = entry<int>(d, "torsion");
     s.axisymmetric = entry<bool>(d, "axisymmetric");
     s.arm = entry<double>(d, "arm");
+    s.shortened_turn = entry<double>(d, "shortened_turn");
+    require(s.shortened_turn >= 0 && std::isfinite(s.shortened_turn), "a shortening counts as no negative rotation");
     const auto gains = entry<Doubles>(d, "arm_gains"), shares = entry<Doubles>(d, "arm_gain_shares");
     require(gains.size() == shares.size() && gains.size() <= most_arm_gains, "an arm has up to three gains, with a share each");
     for (size_t i = 0; i < gains.size(); i++) {
@@ -162,6 +165,8 @@ SpatialHinge make_hinge(const nb::dict& d) {
     require(loss.size() == 2 && loss[0] >= 0 && loss[1] >= 0, "a shear force along y and one along z take no negative share of the torque");
     std::copy(loss.begin(), loss.end(), h.shear_loss);
     h.round_shear = entry<bool>(d, "round_shear");
+    h.cross_softening = entry<double>(d, "cross_softening");
+    require(h.cross_softening > 0 && h.cross_softening <= 1, "a rotation about the other axis softens by a positive part of its measure, at most all");
     for (const Component& c : h.components) {
         const bool drives = !c.shift.values().empty() || !c.worn.values().empty();
         require(c.driver < size(h) && (c.driver >= 0) == drives, "a share depends on the rotation about a component of its hinge");

@@ -12,6 +12,8 @@ constexpr int most = most_components;
 constexpr double smallest_mean = 1e-7;
 // Flow in a step [rad or m] up to which a hinge creeps: D_0 then changes by the work of the flow at the point of the surface found last.
 constexpr double smallest_flow = 1e-8;
+// Flow in a step [rad or m] that is the rounding of an elastic rotation.
+constexpr double no_flow = 1e-15;
 // Share of the capacity in one sense up to which the centre of the set moves in that sense, so that the set keeps both halves.
 constexpr double farthest = 0.9;
 // Share of the torque that shear forces leave at least: those above what the walls carry are of vibration.
@@ -63,6 +65,35 @@ double capacity_over(const hinge::Curve& curve, double a, double b, bool at_end,
     return (curve.integral(b, hint) - curve.integral(a, hint)) / (b - a);
 }
 
+bool bends(const SpatialHinge& hinge, int k) { return hinge.components[static_cast<size_t>(k)].freedom > 3; }
+
+// Share of the measure of a rotation e that softens component k.  The moment about y softens by rotation about y, and by a part of that
+// about z, which folds the other pair of walls; parts add up as in an ellipsoid.
+double own_share(const SpatialHinge& hinge, int k, const double* e) {
+    if (hinge.cross_softening == 1 || !bends(hinge, k)) return 1;
+    double left[most], all = 0, own = 0;
+    beyond_spread(hinge, e, left);
+    for (int j = 0; j < size(hinge); j++) {
+        const int sense = left[j] < 0 ? 1 : 0;
+        const double part = weight_of(hinge, j, sense) * left[j], of_other = hinge.cross_softening * weight_of(hinge, k, sense) * left[j];
+        const double counted = j != k && bends(hinge, j) ? of_other : part;
+        all += part * part;
+        own += counted * counted;
+    }
+    return all > 0 ? std::sqrt(own / all) : 1;
+}
+
+// What softens a component before and after a flow, and the share of the flow before it exceeds the largest value so far.
+struct Way {
+    double from, to, held = 0;
+};
+
+Way way_to_peak(double largest, double from, double to) {
+    const double peak = std::max(largest, from);
+    if (to <= peak) return {peak, peak, 1};
+    return {peak, to, (peak - from) / (to - from)};
+}
+
 }  // namespace
 
 // The walls of a round tube share every shear force alike; in others each pair of walls loses its own part.
@@ -76,6 +107,15 @@ double first_capacity(const SpatialHinge& hinge, int k, int sense) {
     return law_of(hinge, k).scale * curve_of(law_of(hinge, k), sense).at(0, hint);
 }
 
+double measure(const SpatialHinge& hinge, const double* e) { return measure_from(hinge, e, nullptr).value; }
+
+bool stands_still(const SpatialHinge& hinge, const double* flow) {
+    return std::all_of(flow, flow + size(hinge), [](double part) { return std::fabs(part) <= no_flow; });
+}
+
+namespace {
+
+// D_0 of what the rotation e, after a flow from the present one, has beyond what spreads over the member
 SurfacePoint measure_after(const SpatialHinge& hinge, const SpatialHingeState& s, const double* e, const double* flow) {
     bool creeps = hinge.surface.coupling == Coupling::section;
     for (int k = 0; k < size(hinge); k++) creeps = creeps && std::fabs(flow[k]) <= smallest_flow;
@@ -94,8 +134,7 @@ SurfacePoint measure_after(const SpatialHinge& hinge, const SpatialHingeState& s
     return p;
 }
 
-double measure(const SpatialHinge& hinge, const double* e) { return measure_from(hinge, e, nullptr).value; }
-
+// what a flow from e adds to the measure where its increments are summed
 double softening_by(const SpatialHinge& hinge, const double* e, const double* flow) {
     double end[most], before[most], after[most];
     for (int k = 0; k < size(hinge); k++) end[k] = e[k] + flow[k];
@@ -103,6 +142,24 @@ double softening_by(const SpatialHinge& hinge, const double* e, const double* fl
     beyond_spread(hinge, end, after);
     for (int k = 0; k < size(hinge); k++) after[k] -= before[k];
     return measure(hinge, after);
+}
+
+}  // namespace
+
+void soften(const SpatialHinge& hinge, SpatialHingeState& s, const double* e, const double* flow) {
+    const SurfacePoint reached = measure_after(hinge, s, e, flow);
+    const bool adds = law_of(hinge, 0).softening == Softening::accumulated && !stands_still(hinge, flow);
+    s.work = reached.value;
+    std::copy_n(reached.x, size(hinge), s.along);
+    double start[most] = {}, added = 0;
+    for (int k = 0; k < size(hinge); k++) start[k] = e[k] - flow[k];
+    if (adds) added = softening_by(hinge, start, flow);
+    const bool peak = law_of(hinge, 0).softening == Softening::peak;
+    s.softening = peak ? std::max(s.softening, s.work) : s.softening + added;
+    for (int k = 0; k < size(hinge) && hinge.cross_softening < 1; k++) {
+        double& own = s.softening_of[k];
+        own = peak ? std::max(own, s.work * own_share(hinge, k, e)) : own + added * own_share(hinge, k, flow);
+    }
 }
 
 bool softens(const SpatialHinge& hinge) {
@@ -150,9 +207,14 @@ void mean_capacities(const SpatialHinge& hinge, const SpatialHingeState& s, cons
     const int n = size(hinge);
     const bool at_end = form_of(hinge) == Form::elastic_plastic;
     if (on_flange(hinge)) {
-        for (int k = 0; k < n; k++) hinge::set_capacity(law_of(hinge, k), s.component[k], flow[k], f.hint[k], f.component[k]);
-        if (hinge.surface.growth.values().empty()) return;
         const int turn = rotates(hinge, 0) ? 0 : 1;
+        hinge::HingeState turned = s.component[turn];
+        const hinge::HingeState& slipped = s.component[1 - turn];
+        const double shortened = std::max(slipped.peak[1], -slipped.plastic - std::min(flow[1 - turn], 0.0));
+        turned.peak[0] = std::max(turned.peak[0], hinge.surface.shortened_turn * shortened);
+        hinge::set_capacity(law_of(hinge, turn), turned, flow[turn], f.hint[turn], f.component[turn]);
+        hinge::set_capacity(law_of(hinge, 1 - turn), slipped, flow[1 - turn], f.hint[1 - turn], f.component[1 - turn]);
+        if (hinge.surface.growth.values().empty()) return;
         const double so_far = std::max(s.component[turn].peak[0], s.component[turn].peak[1]);
         int hint = 0;
         f.grown = capacity_over(hinge.surface.growth, so_far, std::max(so_far, std::fabs(e[turn] + flow[turn])), at_end, hint);
@@ -167,28 +229,24 @@ void mean_capacities(const SpatialHinge& hinge, const SpatialHingeState& s, cons
     double end[most] = {};
     for (int k = 0; k < n; k++) end[k] = e[k] + flow[k];
     const double none[most] = {};
-    const bool follows = hinge.surface.coupling == Coupling::section;
-    double from = follows ? s.work : measure_after(hinge, s, e, none).value, to = measure_after(hinge, s, end, flow).value, held = 0;
-    switch (law_of(hinge, 0).softening) {
-        case Softening::rotation: break;
-        case Softening::accumulated: from = s.softening, to = s.softening + softening_by(hinge, e, flow); break;
-        case Softening::peak: {
-            // share of the flow before it exceeds the peak so far, with the capacity at that peak
-            const double peak = std::max(s.softening, from);
-            held = to <= peak ? 1 : (peak - from) / (to - from);
-            from = peak, to = std::max(peak, to);
-        }
-    }
+    const double now = hinge.surface.coupling == Coupling::section ? s.work : measure_after(hinge, s, e, none).value;
+    const double then = measure_after(hinge, s, end, flow).value;
+    const Softening variable = law_of(hinge, 0).softening;
+    const double added = variable == Softening::accumulated ? softening_by(hinge, e, flow) : 0;
     for (int k = 0; k < n; k++) {
+        const double largest = hinge.cross_softening == 1 ? s.softening : s.softening_of[k];
+        Way way{now * own_share(hinge, k, e), then * own_share(hinge, k, end)};
+        if (variable == Softening::accumulated) way = {largest, largest + added * own_share(hinge, k, flow)};
+        if (variable == Softening::peak) way = way_to_peak(largest, way.from, way.to);
         for (int sense = 0; sense < 2; sense++) {
             const hinge::Curve& curve = curve_of(law_of(hinge, k), sense);
             const double per_work = 1 / weight_of(hinge, k, sense);
-            const double ahead = capacity_over(curve, from * per_work, to * per_work, at_end, f.hint[k][sense]);
-            const double here = held > 0 && !at_end ? curve.at(from * per_work, f.hint[k][sense]) : 0;
-            f.component[k].capacity[sense] = law_of(hinge, k).scale * (at_end ? ahead : held * here + (1 - held) * ahead);
+            const double ahead = capacity_over(curve, way.from * per_work, way.to * per_work, at_end, f.hint[k][sense]);
+            const double here = way.held > 0 && !at_end ? curve.at(way.from * per_work, f.hint[k][sense]) : 0;
+            f.component[k].capacity[sense] = law_of(hinge, k).scale * (at_end ? ahead : way.held * here + (1 - way.held) * ahead);
             // in motion, where both ends of a step weigh the same, nothing needs it
-            if (f.late == 0.5 || held > 0.5) continue;
-            const double slope = law_of(hinge, k).scale * slope_over(curve, from * per_work, to * per_work, at_end, f.hint[k][sense]);
+            if (f.late == 0.5 || way.held > 0.5) continue;
+            const double slope = law_of(hinge, k).scale * slope_over(curve, way.from * per_work, way.to * per_work, at_end, f.hint[k][sense]);
             f.slope[k] = std::max(f.slope[k], slope);
         }
         const Component& c = hinge.components[static_cast<size_t>(k)];

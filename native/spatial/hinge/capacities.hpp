@@ -14,10 +14,10 @@ inline const hinge::Curve& curve_of(const hinge::Hinge& law, int sense) { return
 double first_capacity(const SpatialHinge& hinge, int k, int sense);
 // work D_0(e) of a proportional rotation by e at the initial capacities, and the point of the surface where it is found
 double measure(const SpatialHinge& hinge, const double* e);
-// what a flow from e adds to the measure where its increments are summed
-double softening_by(const SpatialHinge& hinge, const double* e, const double* flow);
-// D_0 of what the rotation e, after a flow from the present one, has beyond what spreads over the member
-SurfacePoint measure_after(const SpatialHinge& hinge, const SpatialHingeState& s, const double* e, const double* flow);
+// Updates the measure of softening after a flow that has led to the rotation e.
+void soften(const SpatialHinge& hinge, SpatialHingeState& s, const double* e, const double* flow);
+// whether no component flows
+bool stands_still(const SpatialHinge& hinge, const double* flow);
 bool softens(const SpatialHinge& hinge);
 // whether a capacity depends on the rate
 bool rated(const SpatialHinge& hinge);

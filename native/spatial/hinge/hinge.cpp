@@ -12,8 +12,6 @@ namespace {
 constexpr int most = most_components;
 // The rest time of an elastic hinge ignores flow below this share of its accumulated plastic work, as with a single component.
 constexpr double smallest_episode = 1e-2;
-// Flow in a step [rad or m] that is the rounding of an elastic rotation.
-constexpr double no_flow = 1e-15;
 // Share of the capacity from which an elastic hinge takes part in the division of a rotation, in full at its capacity.
 constexpr double divided_from = 0.9;
 // Flow [rad or m] over which the change of a capacity is taken.
@@ -33,11 +31,6 @@ void plastic_rotation(const SpatialHinge& hinge, const SpatialHingeState& s, con
 }
 
 double larger_capacity(const FrozenSpatialHinge& f, int k) { return std::max(f.component[k].capacity[0], f.component[k].capacity[1]); }
-
-// Whether a flow is rounding.
-bool stands_still(const SpatialHinge& hinge, const double* flow) {
-    return std::all_of(flow, flow + size(hinge), [](double part) { return std::fabs(part) <= no_flow; });
-}
 
 double length_of_rotation(const SpatialHinge& hinge, const double* e) {
     double square = 0;
@@ -305,17 +298,7 @@ void commit(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHinge
     } else {
         follow_flow(hinge, f, s, t0, w1, flow, arrest);
         // only softening depends on the work so far
-        if (!on_flange(hinge) && softens(hinge)) {
-            const SurfacePoint reached = measure_after(hinge, s, e, flow);
-            s.work = reached.value;
-            std::copy_n(reached.x, n, s.along);
-            if (law_of(hinge, 0).softening == Softening::peak) s.softening = std::max(s.softening, s.work);
-            if (law_of(hinge, 0).softening == Softening::accumulated && !stands_still(hinge, flow)) {
-                double start[most] = {};
-                for (int k = 0; k < n; k++) start[k] = e[k] - flow[k];
-                s.softening += softening_by(hinge, start, flow);
-            }
-        }
+        if (!on_flange(hinge) && softens(hinge)) soften(hinge, s, e, flow);
     }
     s.rotation_max = std::max(s.rotation_max, length_of_rotation(hinge, q1));
     if (s.fracture_time < 0 && length_of_rotation(hinge, e) >= hinge.fracture) {

@@ -13,7 +13,8 @@
 //
 // Softening.  One component: its own plastic rotation, largest so far in each sense.  Coupled components: one measure s of the plastic
 // rotation vector e, the work D_0(e) of a proportional rotation to e at the initial capacities.  Each curve is evaluated at s/C_k(0),
-// the rotation about its own axis that would dissipate that work.  A component can have a weight in both (`Component::softens`).  `peak`: the largest s so far, both senses together; `rotation`:
+// the rotation about its own axis that would dissipate that work.  A component can have a weight in both (`Component::softens`); the moments
+// of tubes of two pairs of walls soften less by rotation about the other axis (`SpatialHinge::cross_softening`).  `peak`: the largest s so far, both senses together; `rotation`:
 // the present s; `accumulated`: the sum of s over all increments of e.  What spreads over the member (`Component::spread`) is left out of e.
 #pragma once
 
@@ -51,6 +52,7 @@ struct SpatialHinge {
     double fracture = std::numeric_limits<double>::infinity();  // plastic rotation [rad] at which the hinge fractures
     double shear_loss[2] = {0, 0};  // share of the torque that a shear force along local y, z takes from the walls [1/N]
     bool round_shear = false;       // whether the walls see the resultant of both forces
+    double cross_softening = 1;     // weight of a rotation about y in what softens the moment about z, and of one about z in that about y
 };
 
 // State of one hinge.  Used of each component: plastic rotation, moment (mean over the last step; elastic-plastic: at its end),
@@ -58,6 +60,7 @@ struct SpatialHinge {
 struct SpatialHingeState {
     hinge::HingeState component[most_components];
     double softening = 0;       // coupled, with a capacity that varies: the measure s [J], largest or accumulated
+    double softening_of[most_components] = {};  // the same of every component, with a weight of cross softening
     double work = 0;            // the same, coupled by a section's surface: D_0(e) of the plastic rotation e so far [J]
     double along[most_components] = {};  // the point of the surface where it is found
     double episode = 0, accumulated = 0;  // coupled, elastic: plastic work since the hinge last came to rest, and in total [J]

@@ -18,7 +18,8 @@ from crumple.characterisation.combined import Combined, FixedRatio
 from crumple.characterisation.coupling.errors_of_work import errors_of_work
 from crumple.characterisation.curve import LawCurve
 from crumple.numeric.arrays import Floats
-from crumple.section import plastic_interaction
+from crumple.section import RectangularTube, plastic_interaction
+from crumple.structure.hinges.spatial_hinges import CROSSED
 
 SHARE = 0.2
 """Axial force over the squash force."""
@@ -108,10 +109,18 @@ def _fixed_ratio(part: float, alone: LawCurve, at: Floats) -> Floats:
 
 
 def _oblique(model: Combined, about: tuple[LawCurve, LawCurve], at: Floats) -> Floats:
-    """Largest moment about the axis in the set of the walls, scaled to the capacities about y and z."""
-    cos, sin = math.cos(model.angle), math.sin(model.angle)
+    """Largest moment about the axis in the set of the walls, scaled to the capacities about y and z.
+
+    These soften by a measure of the rotation: docs/theory/spatial_hinge.md.
+    """
+    turn = np.array([math.cos(model.angle), math.sin(model.angle)])
     outline = plastic_interaction(model.section, model.material).moment_curve()
-    largest = np.abs(outline).max(axis=0)
-    capacity = np.stack([_capacity(about[0], cos * at), _capacity(about[1], sin * at)], axis=1)
-    parts = (outline / largest)[None] * (capacity * [cos, sin])[:, None]
-    return np.asarray(parts.sum(axis=2).max(axis=1))
+    shares = outline / np.abs(outline).max(axis=0)
+    first = np.array([float(_capacity(one, np.zeros(1))[0]) for one in about])
+    work = first * turn
+    measure = (shares * work).sum(axis=1).max() * at
+    crossed = CROSSED if isinstance(model.section, RectangularTube) else 1.0
+    own = np.hypot(work, crossed * first * turn[::-1]) if crossed < 1.0 else np.hypot(*work)
+    softened = measure[:, None] * own / np.hypot(*work) / first
+    capacity = np.stack([_capacity(one, softened[:, k]) for k, one in enumerate(about)], axis=1)
+    return np.asarray((shares[None] * (capacity * turn)[:, None]).sum(axis=2).max(axis=1))

@@ -16,6 +16,7 @@ AXIAL, TORSION, ABOUT_Y, ABOUT_Z = 0, 3, 4, 5
 
 FORMS = (SET_VALUED, ELASTIC_PLASTIC, REGULARISED)
 NO_ARM = {"arm": 0.0, "arm_gains": [], "arm_gain_shares": [], "growth_rotation": [], "growth_share": []}
+NO_ARM |= {"shortened_turn": 0.0}
 
 
 def component(freedom, positive, negative=None, **more):
@@ -53,7 +54,7 @@ def component(freedom, positive, negative=None, **more):
 def hinge(*components, form=SET_VALUED, softening=PEAK, coupling=NONE, **more):
     """Constants of a hinge as the kernel takes them."""
     plain = {"rows": [], "power": 2.0, "torque_power": 2.0, "torsion": -1, "fracture": math.inf, **NO_ARM}
-    plain |= {"shear_loss": [0.0, 0.0], "round_shear": False, "axisymmetric": False}
+    plain |= {"shear_loss": [0.0, 0.0], "round_shear": False, "axisymmetric": False, "cross_softening": 1.0}
     plain |= {"form": form, "softening": softening, "coupling": coupling, "components": list(components)}
     return plain | more
 

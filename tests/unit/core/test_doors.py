@@ -56,6 +56,7 @@ held = (-1, 0, [0.0] * 3, list(np.eye(3).ravel()), [True] * 6, False)
 pinned = (-1, 0, [0.0] * 3, list(np.eye(3).ravel()), [True] * 3 + [False] * 3, False)
 surface = dict(coupling=3, rows=[1.0] * 5, power=2.0, torque_power=2.0, torsion=-1, arm=0.0)
 surface |= dict(axisymmetric=False, arm_gains=[], arm_gain_shares=[], growth_rotation=[], growth_share=[])
+surface |= dict(shortened_turn=0.0)
 nan = float("nan")
 """
 CALLS = {

@@ -29,7 +29,7 @@ WALL = {"type": "plane", "normal": (-1, 0, 0), "friction": 0.2}
 
 
 def portal(f, across, wall):
-    """A portal with a mass thrown along its beam, `f` times as large; in space one post is out of the plane."""
+    """A portal with a mass thrown along its beam, `f` times as large; `across`: in space."""
     tube = {"type": "rectangular_tube", "width": f * 0.04, "depth": f * 0.06, "thickness": f * 0.002}
     aside, high = 0.1 * f * across, 0.45 * f
     beside = {"section": "tube", "material": "steel"}
@@ -62,7 +62,7 @@ def solved(f, members, across, wall):
 @pytest.mark.parametrize("members", ["elastic", "rigid"])
 @pytest.mark.parametrize("wall", [False, True], ids=["free", "wall"])
 def test_frames_of_another_size_do_the_same(members, across, wall, record_figure):
-    room = {"rel": 2e-3, "abs": 2e-4} if wall else {"rel": 1e-4}
+    room = {"rel": 2e-3, "abs": 2e-4} if wall else {"rel": 5e-4}
     one = solved(1.0, members, across, wall)
     assert max(abs(hinge.rotation_max) for hinge in one.hinges.values()) > 0.09
     for factor in (0.3, 4.0):

@@ -162,7 +162,7 @@ class Coupling(IntEnum):
 class SpatialSurface:
     """Surface of interaction; `rows` (k, components), the column of component `torsion` is zero.
 
-    `axisymmetric`, and `gains` and `growth` of the arm of a tension flange: see `HingeSurface`.
+    `axisymmetric`, and `gains`, `growth` and `shortened_turn` of a tension flange: see `HingeSurface`.
     """
 
     coupling: Coupling = Coupling.NONE
@@ -173,6 +173,7 @@ class SpatialSurface:
     arm: float = 0.0
     gains: tuple[tuple[float, float], ...] = ()
     growth: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
+    shortened_turn: float = 0.0
     axisymmetric: bool = False
 
 
@@ -181,8 +182,8 @@ class SpatialHinge:
     """Plastic hinge in freedoms of a joint that are not held.
 
     Codes of form and softening variable are those of `crumple._core.planar.simulation.TreeHinge`.
-    It opens for good at the plastic rotation `fracture` [rad].  `shear_loss`, `round_shear`: see
-    `SpatialHingeRecord`.
+    It opens for good at the plastic rotation `fracture` [rad].  `shear_loss`, `round_shear`,
+    `cross_softening`: see `SpatialHingeRecord`.
     """
 
     joint: int
@@ -193,6 +194,7 @@ class SpatialHinge:
     fracture: float = math.inf
     shear_loss: tuple[float, float] = (0.0, 0.0)
     round_shear: bool = False
+    cross_softening: float = 1.0
 
     @cached_property
     def constants(self) -> dict[str, Any]:
@@ -205,6 +207,7 @@ class SpatialHinge:
             "fracture": self.fracture,
             "shear_loss": list(self.shear_loss),
             "round_shear": self.round_shear,
+            "cross_softening": self.cross_softening,
             "components": [component.component() for component in self.components],
             "coupling": int(surface.coupling),
             "rows": as_list(np.asarray(surface.rows, float).reshape(-1)),
@@ -217,6 +220,7 @@ class SpatialHinge:
             "arm_gain_shares": [share for _, share in surface.gains],
             "growth_rotation": as_list(surface.growth[0]),
             "growth_share": as_list(surface.growth[1]),
+            "shortened_turn": surface.shortened_turn,
         }
 
 

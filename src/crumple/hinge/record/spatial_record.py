@@ -141,6 +141,8 @@ class HingeSurface:
         yield force, both increasing, at most three.
     growth
         Tension flange: largest plastic rotation so far [rad] and share of `arm` [-], below 1; empty: all.
+    shortened_turn
+        Tension flange: rotation that a shortening counts as where the moment softens [rad/m].
     error
         Largest relative distance between this surface and that of the walls.
     axisymmetric
@@ -155,6 +157,7 @@ class HingeSurface:
     arm: float = 0.0
     gains: tuple[tuple[float, float], ...] = ()
     growth: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
+    shortened_turn: float = 0.0
     error: float = 0.0
     axisymmetric: bool = False
 
@@ -194,6 +197,8 @@ class SpatialHingeRecord:
         Share of the torque that a shear force along local y, and one along z, takes from the walls [1/N].
     round_shear
         Whether the walls of a round tube see the resultant of both forces; else their parts add up.
+    cross_softening
+        Weight of a rotation about one bending axis in what softens the moment about the other; 1: all of it.
     """
 
     components: tuple[HingeComponent, ...]
@@ -201,6 +206,7 @@ class SpatialHingeRecord:
     fracture: float = math.inf
     shear_loss: tuple[float, float] = (0.0, 0.0)
     round_shear: bool = False
+    cross_softening: float = 1.0
 
     @property
     def freedoms(self) -> tuple[Freedom, ...]:

@@ -134,6 +134,7 @@ def _hinge(joint: int, connection: Connection) -> SpatialHinge:
             surface.arm,
             surface.gains,
             surface.growth,
+            surface.shortened_turn,
             surface.axisymmetric,
         ),
         FORMS[spatial.form],
@@ -141,6 +142,7 @@ def _hinge(joint: int, connection: Connection) -> SpatialHinge:
         spatial.fracture,
         spatial.shear_loss,
         spatial.round_shear,
+        spatial.cross_softening,
     )
 
 

@@ -34,7 +34,7 @@ from crumple.hinge.registry import DEFAULT_TORSION, OPEN_TORSION
 from crumple.hinge.tube_library.hardening import hardens
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
-from crumple.section import CircularTube, Section
+from crumple.section import CircularTube, RectangularTube, Section
 from crumple.structure.hinges.runs.bars import is_closed
 from crumple.structure.keys.hinge_axes import AxialSlip, BendingAxis, HingeAxes, Twist
 from crumple.structure.remembered import remembered
@@ -51,6 +51,8 @@ FLAT, ROUND_FLAT = 0.65, 0.5
 """Power of the share of the moment of a fold that is left, in the share of its torque; of round tubes [-]."""
 TWISTED = 0.4
 """Share of the work of twist that softens a fold of metal that hardens [-]: its walls fold late in shear."""
+CROSSED = 0.5
+"""Weight of a rotation about one axis of a rectangular tube where it softens the moment about the other."""
 APART = ("none", "tension-flange")
 """Couplings whose components soften apart."""
 KEPT = 64
@@ -122,6 +124,8 @@ def spatial_hinge_record(
         arm=(section.bending_depth(bending[0]) - section.thickness) / 2.0,
         fracture=math.inf if keys.fracture is None else keys.fracture,
     )
+    if fitted and len(bending) > 1 and isinstance(section, RectangularTube):
+        record = replace(record, cross_softening=CROSSED)
     return beside_shear(record, section, material)
 
 

@@ -89,11 +89,16 @@ def test_it_slips_at_right_angles_to_the_mitre():
         {"obstacles": "{}"},
         {"members": "rigid"},
         {"hinges": "{axial: false}"},
-        {"hinges": "{law: {type: auto, form: regularised}}"},
     ],
 )
 def test_it_only_turns_where_nothing_presses_or_the_model_or_the_input_does_not_let_it_slip(case):
     assert corner(**case).spatial is None
+
+
+def test_a_regularised_fold_has_the_interaction_of_its_member():
+    assert (
+        corner(hinges="{law: {type: auto, form: regularised}}").spatial.surface.coupling is Coupling.SECTION
+    )
 
 
 def test_a_coupling_of_the_input_is_kept():
@@ -204,3 +209,26 @@ def test_unasked_its_walls_fold_as_those_of_a_compressed_tube(hinges):
     plain = next(part for part in corner(asked).spatial.components if part.freedom is Freedom.AXIAL)
     assert "superfolding" in slip.origin.lower()
     assert plain.origin != slip.origin
+
+
+def test_in_a_plane_its_shortening_counts_as_the_rotation_that_does_its_work():
+    """As in space, where both have one measure; so a corner that shortens loses moment, and turns then."""
+    plane, space = corner().spatial, corner(SPACE).spatial
+    slip = next(part for part in space.components if part.freedom is Freedom.AXIAL)
+    bending = next(part.record for part in plane.components if part.freedom is Freedom.Y)
+    moment = (bending.positive.moment[0] + bending.negative.moment[0]) / 2.0
+    assert plane.surface.shortened_turn > 0.0
+    assert plane.surface.shortened_turn * moment == pytest.approx(
+        slip.softens * slip.record.negative.moment[0], rel=1e-9
+    )
+    # straight members keep their moment
+    analysis = loads(
+        RAIL.replace("HINGES", "{axial: true, coupling: tension-flange}")
+        .replace("GAUGE", "2 mm")
+        .replace("OBSTACLES", WALL)
+        .replace("MEMBERS", "elastic")
+    )
+    structure = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
+    others = [one.spatial for one in placed_hinges(structure) if one.plastic and one.name != "corner-bend"]
+    assert others
+    assert all(one.surface.shortened_turn == 0.0 for one in others)

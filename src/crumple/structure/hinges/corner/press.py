@@ -66,7 +66,7 @@ def with_corner_press(
     if {*parts} != {Freedom.AXIAL, Freedom.X, Freedom.Y, Freedom.Z}:
         return record
     arm = 0.5 * (section.bending_depth(corner.axis) - section.thickness)
-    pressed, weight = pressed_slip(
+    pressed = pressed_slip(
         parts[Freedom.AXIAL].record, parts[in_plane].record, arm, squash, fold_share(corner, section)
     )
 
@@ -76,7 +76,7 @@ def with_corner_press(
         spread = component.spread
         # the corner folds before its members yield in compression
         pulled = spread and replace(spread, shortening=(np.zeros(0), np.zeros(0)))
-        return replace(component, record=pressed, spread=pulled, softens=weight)
+        return replace(component, record=pressed.record, spread=pulled, softens=pressed.weight)
 
     order = record.freedoms
     columns = [order.index(Freedom.AXIAL), order.index(in_plane), order.index(Freedom[corner.across.upper()])]

@@ -17,7 +17,7 @@ shells, docs/theory/mitred_corner.md.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -57,9 +57,30 @@ def with_corner_slip(
     growth = (PLACES, 1.0 - np.exp(-PLACES / FOLDED))
     slip, bending = record.components
     assert slip.freedom is Freedom.AXIAL
-    pressed, _ = pressed_slip(slip.record, bending.record, surface.arm, squash, fold)
-    surface = replace(surface, arm=fold * surface.arm, gains=gains, growth=growth)
-    return replace(record, components=(replace(slip, record=pressed), bending), surface=surface)
+    pressed = pressed_slip(slip.record, bending.record, surface.arm, squash, fold)
+    surface = replace(
+        surface, arm=fold * surface.arm, gains=gains, growth=growth, shortened_turn=pressed.turn
+    )
+    return replace(record, components=(replace(slip, record=pressed.record), bending), surface=surface)
+
+
+@dataclass(frozen=True)
+class PressedSlip:
+    """Slip of a corner under compression.
+
+    Attributes
+    ----------
+    record
+        Of the slip, with the smaller force in compression.
+    weight
+        Of the slip in the measure of softening [-].
+    turn
+        Rotation that a shortening counts as there [rad/m].
+    """
+
+    record: HingeRecord
+    weight: float
+    turn: float
 
 
 def fold_share(corner: Corner, section: Section) -> float:
@@ -70,8 +91,8 @@ def fold_share(corner: Corner, section: Section) -> float:
 
 def pressed_slip(
     slip: HingeRecord, bending: HingeRecord, arm: float, squash: float, fold: float
-) -> tuple[HingeRecord, float]:
-    """The slip's record with the smaller force in compression, and its weight in the measure of softening."""
+) -> PressedSlip:
+    """The slip under the force that a corner without moment carries; it never softens ahead of a turn."""
     laws = bending.positive, bending.negative
     at_first = sum(float(law.moment[0]) for law in laws) / 2.0
     first = (at_first / arm + (1.0 - fold) * FULL * squash / 2.0) / (1.0 - fold)
@@ -88,4 +109,4 @@ def pressed_slip(
     places = np.unique(np.concatenate([turns / ratio, slip.negative.rotation]))
     folding = np.interp(places, slip.negative.rotation, slip.negative.moment)
     pressed = np.minimum(np.interp(places, turns / ratio, force), folding)
-    return replace(slip, negative=Envelope(places, pressed)), weight
+    return PressedSlip(replace(slip, negative=Envelope(places, pressed)), weight, ratio)
