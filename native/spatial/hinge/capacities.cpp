@@ -215,7 +215,7 @@ void mean_capacities(const SpatialHinge& hinge, const SpatialHingeState& s, cons
         hinge::set_capacity(law_of(hinge, turn), turned, flow[turn], f.hint[turn], f.component[turn]);
         hinge::set_capacity(law_of(hinge, 1 - turn), slipped, flow[1 - turn], f.hint[1 - turn], f.component[1 - turn]);
         if (hinge.surface.growth.values().empty()) return;
-        const double so_far = std::max(s.component[turn].peak[0], s.component[turn].peak[1]);
+        const double so_far = std::max(turned.peak[0], turned.peak[1]);
         int hint = 0;
         f.grown = capacity_over(hinge.surface.growth, so_far, std::max(so_far, std::fabs(e[turn] + flow[turn])), at_end, hint);
         return;

@@ -49,3 +49,21 @@ def obstacle_at_start(obstacle: Obstacle, heavy: float) -> tuple[Floats, float]:
         return np.zeros(3), 0.0
     velocity = np.asarray(obstacle.velocity, float)
     return (velocity if velocity.any() else first_displacement(obstacle)), heavy
+
+
+def momentum_at_start(structure: StructureParts) -> Floats:
+    """Momentum of the nodes relative to the fastest obstacle [kg m/s], (3,)."""
+    moving = nodes_at_start(structure)
+    struck = [obstacle_at_start(obstacle, 1.0)[0] for obstacle in structure.obstacles.values()]
+    fastest = max(struck, key=lambda motion: float(motion @ motion), default=np.zeros(3))
+    return sum((mass * (velocity - fastest) for mass, velocity in moving.values()), np.zeros(3))
+
+
+def approaches(structure: StructureParts, obstacle: Obstacle, node: str, outwards: Floats) -> bool:
+    """Whether a node and an obstacle approach each other at the start, along the unit vector between them.
+
+    A node that has no velocity of its own is moved by the others.
+    """
+    motion, _ = obstacle_at_start(obstacle, 1.0)
+    velocity = nodes_at_start(structure)[node][1] - motion
+    return float((velocity if velocity.any() else momentum_at_start(structure)) @ outwards) < 0.0

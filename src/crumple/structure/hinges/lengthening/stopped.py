@@ -20,7 +20,7 @@ import numpy as np
 
 from crumple.numeric.arrays import Floats
 from crumple.structure.hinges.corners import leaving
-from crumple.structure.hinges.lengthening.at_start import nodes_at_start, obstacle_at_start
+from crumple.structure.hinges.lengthening.at_start import approaches, nodes_at_start, obstacle_at_start
 from crumple.structure.hinges.lengthening.framework import BED, Framework, Row, framework, on_a_bed
 from crumple.structure.hinges.lengthening.nodes_met import nodes_met
 from crumple.structure.parts import StructureParts
@@ -55,13 +55,11 @@ def presses(structure: StructureParts) -> bool:
 
 
 def _presses(structure: StructureParts) -> bool:
-    moving = nodes_at_start(structure)
     for obstacle in structure.obstacles.values():
-        motion, _ = obstacle_at_start(obstacle, 1.0)
         for node, outwards in nodes_met(structure, obstacle):
             members = (name for name in structure.members_at[node] if structure.is_whole(name))
             along = max(float(leaving(structure, name, node) @ outwards) for name in members)
-            if along > math.cos(ALONG) and (moving[node][1] - motion) @ outwards < 0.0:
+            if along > math.cos(ALONG) and approaches(structure, obstacle, node, outwards):
                 return True
     return False
 
