@@ -20,6 +20,8 @@ from crumple.numeric.arrays import Floats
 SMALLEST, LARGEST = math.radians(5.0) * (1.0 - 1e-9), math.radians(100.0) * (1.0 + 1e-9)
 """Angles between the members, with room for rounding.  Beyond the largest a mitre is longer than the section;
 shells join such members rigidly, and automatic hinges have no corner there."""
+SOFT = 0.7
+"""e of the hardening of a closed corner [-]."""
 ROUNDING = 3.0
 """p of the transition from the start to the fold [-]."""
 
@@ -87,9 +89,10 @@ class InPlaneLaw:
     def at_yield(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Capacity [N m] at a rotation [rad] of a metal that stays at its yield stress."""
 
-    @abstractmethod
     def hardening(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Factor of hardening on the capacity at a rotation [rad] [-]."""
+        share = 1.0 - SOFT * self.slope if self.closes(sense) else 1.0
+        return 1.0 + share * (self.effect.at(rotation) - 1.0)
 
     def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Capacity [N m] at a rotation [rad]; see `HingeLaw`."""
@@ -119,6 +122,6 @@ def slope_of(angle: float) -> float:
     return math.sin(angle / 2.0)
 
 
-def rounded(start: Floats | float, fold: Floats) -> Floats:
+def rounded(start: Floats | float, fold: Floats, power: float = ROUNDING) -> Floats:
     """Moment [N m] of a corner that begins to yield at one moment and whose fold carries another."""
-    return start * (1.0 + (start / fold) ** ROUNDING) ** (-1.0 / ROUNDING)
+    return start * (1.0 + (start / fold) ** power) ** (-1.0 / power)

@@ -52,8 +52,6 @@ WEB, FLANGE = 0.56, 2.44
 """g and k of the moment at the start [-]."""
 CLOSING, OPENING, OPEN_RISE = 0.45, 0.75, 1.12
 """c, d and o of the moment of both senses [-]."""
-SOFT = 0.7
-"""e of the hardening of a closed corner [-]."""
 STIFFNESS = 0.34
 """r of the elastic stiffness [-]."""
 REACH = math.radians(40.0)
@@ -144,11 +142,6 @@ class MitredCornerLaw(InPlaneLaw):
         # the capped part of the straight member's curve has no kinks
         governed = {kink for kink in self.tube.kinks(sense) if float(above(np.asarray(kink))) >= 0.0}
         return tuple(sorted(governed | {*hardens} | (set() if crossing is None else {crossing})))
-
-    def hardening(self, rotation: ArrayLike, sense: int = 1) -> Floats:
-        """Factor of hardening on the capacity at a rotation [rad] [-]."""
-        share = 1.0 - SOFT * self.slope if self.closes(sense) else 1.0
-        return 1.0 + share * (self.effect.at(rotation) - 1.0)
 
     def at_yield(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Capacity [N m] at a rotation [rad] of a metal that stays at its yield stress."""
