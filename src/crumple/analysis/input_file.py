@@ -216,7 +216,9 @@ def _analysis(document: Document, file: str, directory: Path) -> Analysis:
         bending = with_elastic_members(sound, whole.analysis.multibody, moving)
         scatter, wrong = in_si(whole.uncertainty, data, bending)
         cross += wrong
-    problems += [(path_of(problem.where), problem) for problem in cross]
+    # what is refused where a part is missing says nothing new
+    told = {place for place, _ in problems}
+    problems += [(path, problem) for problem in cross if (path := path_of(problem.where)) not in told]
     if problems or document.problems or whole is None:
         raise InputError(_placed(problems, document, file))
     # everything was checked above, with lines

@@ -99,6 +99,9 @@ def output_problems(
         where = f"outputs.distances.{name}"
         problems += unknown("node", distance.start, nodes, f"{where}.from")
         problems += unknown("node", distance.end, nodes, f"{where}.to")
+        if distance.start == distance.end:
+            what, came = "a distance needs two nodes", f"{shown(distance.end)} twice"
+            problems.append(Problem(what, came, "", "name another node", f"{where}.to"))
     for name, force in outputs.section_forces.items():
         where = f"outputs.section_forces.{name}"
         problems += unknown("member", force.member, members, f"{where}.member")
@@ -251,8 +254,8 @@ def _perhaps_coincident(structure: StructureParts) -> list[str]:
 def _connections(structure: StructureParts, known: Known) -> Iterator[Problem]:
     """Masses, supports, loads and nodes that no member connects to the structure."""
     joined = {node for member in structure.members.values() for node in member.nodes}
-    if not joined <= known["nodes"]:
-        return  # a misspelt name may be the connection of a node
+    if not joined or not joined <= known["nodes"]:
+        return  # a misspelt name may be the connection of a node; without members nothing is connected
     carriers, ends = list(_carriers(structure)), one_of(sorted(joined))
     for where, node, noun in carriers:
         if node in structure.nodes and node not in joined:

@@ -2,7 +2,8 @@
 
 A structure on which no load, gravity, impulse or driven support acts stays at rest, or moves with the one
 velocity that all of it has at the start, until it meets an obstacle.  If it meets none on this path within
-the run, it meets none at all.  In all other cases nothing is said.
+the run, it meets none at all.  Supports that hold only what this velocity does not have change nothing.  In
+all other cases nothing is said.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import numpy as np
 
 from crumple.numeric.arrays import Floats
 from crumple.structure.checks.obstacle_checks import prescribed
-from crumple.structure.keys.obstacles import Obstacle, gap
+from crumple.structure.keys.obstacles import Obstacle, PlaneObstacle, gap
 from crumple.structure.parts import StructureParts
 from crumple.text.names import listed
 from crumple.units import format_quantity
@@ -41,14 +42,16 @@ def never_met(structure: StructureParts, duration: float) -> Iterator[str]:
     paths = {name: _path(one, times) - times * velocity for name, one in structure.obstacles.items()}
     if not any(path.any() for path in paths.values()):
         return
-    apart = min(_clearance(structure, name, path) for name, path in paths.items())
+    left = {name for name, path in paths.items() if _leaves(structure, name, path)}
+    clearances = (_clearance(structure, name, path) for name, path in paths.items() if name not in left)
+    apart = min(clearances, default=np.inf)
     if apart > 0.0:
+        away = f"is always more than {format_quantity(apart, 'm', 2)} away" if not left else "comes no nearer"
         one, moves = len(paths) == 1, "only its velocity at the start" if velocity.any() else "nothing"
         yield (
             f"Obstacle{'' if one else 's'} {listed(paths)} {'is' if one else 'are'} met by no member in "
-            f"{format_quantity(duration, 's', 3)}: {moves} moves the structure, which is always more than "
-            f"{format_quantity(apart, 'm', 2)} away. Check place, direction and velocity, of the structure "
-            "too, and the duration."
+            f"{format_quantity(duration, 's', 3)}: {moves} moves the structure, which {away}. Check place, "
+            "direction and velocity, of the structure too, and the duration."
         )
 
 
@@ -61,8 +64,10 @@ def _common_velocity(structure: StructureParts) -> Floats | None:
     if not fields:
         return np.zeros(3)
     (field,) = fields
-    moved = not field.everywhere or field.rotation or structure.supports
-    return None if moved else np.asarray(field.translation, float)
+    velocity = np.asarray(field.translation, float)
+    held = {freedom for support in structure.supports.values() for freedom in support.held}
+    stopped = any(velocity["xyz".index(freedom)] != 0.0 for freedom in held if freedom in "xyz")
+    return None if not field.everywhere or field.rotation or stopped else velocity
 
 
 def _path(obstacle: Obstacle, times: Floats) -> Floats:
@@ -71,6 +76,18 @@ def _path(obstacle: Obstacle, times: Floats) -> Floats:
     for key, function in prescribed(obstacle):
         path[:, "xyz".index(key[-1])] += function(times[:, 0])
     return np.asarray(path)
+
+
+def _leaves(structure: StructureParts, name: str, path: Floats) -> bool:
+    """Whether an obstacle is a plane in front of which all members are and whose path, (n, 3), leads away."""
+    obstacle = structure.obstacles[name]
+    if not isinstance(obstacle, PlaneObstacle):
+        return False
+    normal = np.asarray(obstacle.normal, float)
+    members = structure.members if obstacle.members is None else obstacle.members
+    nodes = np.array([structure.nodes[node] for one in members for node in structure.members[one].nodes])
+    in_front = float(((nodes - np.asarray(obstacle.point)) @ normal).min()) >= 0.0
+    return in_front and float((path @ normal).max()) <= 0.0
 
 
 def _clearance(structure: StructureParts, name: str, path: Floats) -> float:

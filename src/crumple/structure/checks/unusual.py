@@ -11,6 +11,8 @@ Nothing is refused for them.  The ranges are wide, so that whoever is outside of
 - Wall thickness 0.02 to 100 mm: foil of honeycomb has 0.03 mm; thicker plates are not thin-walled frames.
 - Largest side of a section 1 mm to 10 m: from a capillary to a box girder.
 - Length of a member 1 mm to 1 km: bars between hinges are longer than their folds; no frame has a longer one.
+- Length of a member over the largest side of its section up to 200: the slenderest of frames have 50.
+- Largest rotation in the table of a law up to 180 degrees: no member bends further.
 - Mass of a lump or obstacle up to 100 000 t: a loaded ship.  Small ones do no harm.
 - Offset of a lump from its node up to 100 m: half of a ship.
 - Speed up to 500 m/s: above it shock waves in the metal matter, which neither solver has.  Of an initial
@@ -30,6 +32,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from crumple.material import HardeningTable
+from crumple.structure.keys.hinge_axes import HingeAxes
+from crumple.structure.keys.law import LawReference
 from crumple.structure.keys.motion import InitialVelocity
 from crumple.structure.parts import StructureParts
 from crumple.text.names import listed
@@ -37,6 +41,8 @@ from crumple.units import format_quantity
 
 LOOKS = 101
 """Times of a run between which the speed of a drive is taken, besides the corners of its curve."""
+LONGEST, SMALLEST_SIDE = 1e3, 1e-3
+"""Largest usual length of a member, and smallest of the largest side of a section [m]."""
 RATE = 100.0
 """Strain rate [1/s] at which rate laws are judged, that of folds in a crash."""
 
@@ -127,6 +133,49 @@ def _lengths(structure: StructureParts, duration: float) -> Found:
         yield f"members.{name}", structure.frame_of(name).length
 
 
+def _slenderness(structure: StructureParts, duration: float) -> Found:
+    side = {place.partition(".")[2]: value for place, value in _sides(structure, duration)}
+    lengths = _lengths(structure, duration)
+    for (place, length), spec in zip(lengths, structure.members.values(), strict=True):
+        # lengths and sides out of their own ranges have their own sentences
+        if length <= LONGEST and side[spec.section] >= SMALLEST_SIDE:
+            yield place, length / side[spec.section]
+
+
+def given_laws(structure: StructureParts) -> tuple[tuple[str, LawReference], ...]:
+    """Laws that hinges name or describe, with their paths."""
+    return structure.kept.once("given laws", "", lambda: tuple(_given_laws(structure)))
+
+
+def _given_laws(structure: StructureParts) -> Iterator[tuple[str, LawReference]]:
+    asked: list[tuple[str, HingeAxes | None]] = [("hinges", structure.hinges)]
+    for name, member in structure.members.items():
+        if member.bars.number > 1:
+            asked += [(f"members.{name}.bars", member.bars)]
+        if isinstance(member.hinges, tuple):
+            asked += [(f"members.{name}.hinges[{i}]", hinge) for i, hinge in enumerate(member.hinges)]
+        elif member.hinges is not None:
+            asked += [(f"members.{name}.hinges", member.hinges)]
+    for where, keys in asked:
+        if keys is not None and keys.law is not None:
+            yield f"{where}.law", keys.law
+        if keys is not None and keys.laws is not None:
+            named = (("y", keys.laws.y), ("z", keys.laws.z))
+            yield from ((f"{where}.laws.{axis}", law) for axis, law in named if law is not None)
+
+
+def _table_ends(structure: StructureParts, duration: float) -> Found:
+    described = [(where, law) for where, law in given_laws(structure) if not isinstance(law, str)]
+    for where, law in (
+        *((f"hinge_laws.{name}", law) for name, law in structure.hinge_laws.items()),
+        *described,
+    ):
+        for key in ("rotation", "negative_rotation"):
+            curve = law.own.get(key)
+            if isinstance(curve, tuple) and curve:
+                yield f"{where}.{key}", max(map(abs, curve))
+
+
 def _masses(structure: StructureParts, duration: float) -> Found:
     yield from ((f"masses.{name}.mass", mass.mass) for name, mass in structure.masses.items())
     for name, obstacle in structure.obstacles.items():
@@ -190,8 +239,17 @@ USUAL = (
     Usual("the stress at a strain rate of 100/s", "1", 1.0, 10.0, _rate_factors, " times as strong at 100/s"),
     Usual("the density of a metal", "kg/m^3", 500.0, 25e3, _material("density")),
     Usual("the wall thickness of a thin-walled section", "m", 2e-5, 0.1, _thicknesses),
-    Usual("the largest side of a thin-walled section", "m", 1e-3, 10.0, _sides),
-    Usual("the length of a member", "m", 1e-3, 1e3, _lengths),
+    Usual("the largest side of a thin-walled section", "m", SMALLEST_SIDE, 10.0, _sides),
+    Usual("the length of a member", "m", 1e-3, LONGEST, _lengths),
+    Usual(
+        "a member's length",
+        "1",
+        0.0,
+        200.0,
+        _slenderness,
+        " times the largest side of its section",
+    ),
+    Usual("the largest rotation of a law", "rad", 0.0, math.pi, _table_ends),
     Usual("a mass", "kg", 0.0, 1e8, _masses),
     Usual("the offset of a mass from its node", "m", 0.0, 100.0, _offsets),
     Usual("the speed of a crash", "m/s", 0.0, 500.0, _speeds),

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 
 from crumple.function import TimeFunction
 from crumple.material.material import FOLD_STRAIN
-from crumple.structure.checks.unusual import Unusual
+from crumple.structure.checks.unusual import Unusual, given_laws
 from crumple.structure.keys.load import Load
 from crumple.structure.keys.motion import InitialVelocity
 from crumple.structure.keys.stages import Stage
@@ -94,6 +94,30 @@ def _flow_stresses(structure: StructureParts) -> Iterator[Unusual]:
                 "Remove one of them.",
                 "two_flow_stresses",
             )
+
+
+def unused_names(structure: StructureParts) -> str:
+    """Sentence on sections, materials and laws that nothing uses; empty if all are used."""
+    members = structure.members.values()
+    metals = {
+        metal for section in structure.sections.values() for metal in section.named_materials().values()
+    }
+    used = {
+        "section": {member.section for member in members},
+        "material": metals | {member.material for member in members},
+        "hinge law": {law for _, law in given_laws(structure) if isinstance(law, str)},
+    }
+    given = {
+        "section": structure.sections,
+        "material": structure.materials,
+        "hinge law": structure.hinge_laws,
+    }
+    spare = {kind: [name for name in names if name not in used[kind]] for kind, names in given.items()}
+    said = (
+        f"{kind}{'s' if len(names) > 1 else ''} {listed(names)}" for kind, names in spare.items() if names
+    )
+    text = "; ".join(said)
+    return f"Not used: {text}." if text else ""
 
 
 def massless_nodes(structure: StructureParts, field: InitialVelocity) -> list[str]:

@@ -192,6 +192,13 @@ def test_names_of_refused_parts_are_not_missing(keys):
     assert problems_in(part)
 
 
+def test_a_distance_has_two_nodes(keys):
+    structure = Structure(**keys)
+    (problem,) = output_problems(Outputs(distances={"d": {"from": "tip", "to": "tip"}}), structure)
+    assert (problem.where, problem.came) == ("outputs.distances.d.to", "tip twice")
+    assert not output_problems(Outputs(distances={"d": {"from": "root", "to": "tip"}}), structure)
+
+
 def test_outputs_name_nodes_and_places_that_exist(keys):
     structure = Structure(**keys)
     outputs = Outputs(

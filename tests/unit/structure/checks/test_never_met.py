@@ -22,6 +22,7 @@ analysis: {duration: 20 ms, shell: {element_size: 12 mm}}
 """
 THROWN = "initial_velocity: [{translation: [10 m/s, 0 m/s, 0 m/s]}]\n"
 WALL = "obstacles: {wall: {type: plane, point: [-100 mm, 0 m, 0 m], normal: [1, 0, 0]}}\n"
+GUIDE = "supports: {a: {node: a, fix: [y, z]}, c: {node: c, fix: [ry]}}\n"
 CLAMP = "supports: {a: {node: a, fix: all}}\n"
 POLE = "obstacles: {pole: {type: cylinder, point: [0.5 m, 0 m, 0.1 m], axis: [0, 1, 0], radius: 30 mm, "
 DOWN = "{table: {time: [0 s, 1 s], value: [0 mm, -10 mm]}}"
@@ -30,6 +31,8 @@ AROUND = (
 )
 MISSED = {
     "thrown away from a wall": THROWN + WALL,
+    "thrown away from a wall that it touches": THROWN + WALL.replace("-100 mm", "0 mm"),
+    "guided, and thrown away from a near wall": GUIDE + THROWN + WALL.replace("-100 mm", "-1 mm"),
     "a pole that moves away": f"{CLAMP}{POLE}velocity: [0 m/s, 0 m/s, 5 m/s]}}}}\n",
     "a driven pole that stops short": f"{CLAMP}{POLE}motion: {{z: {DOWN}}}}}}}\n",
     "a mass that flies past": f"{CLAMP}{POLE}mass: 5 kg, velocity: [0 m/s, 9 m/s, 0 m/s]}}}}\n",
@@ -40,6 +43,11 @@ MET_OR_NOT_KNOWN = {
     "a turning velocity": THROWN.replace("translation", "axis: [0, 1, 0], rotation: 1 rad/s, translation")
     + WALL,
     "held and thrown": CLAMP + THROWN + WALL,
+    "guided across the motion": GUIDE.replace("[y, z]", "[x, y]") + THROWN + WALL,
+    "a near wall in front": THROWN + WALL.replace("-100 mm", "1001 mm").replace("[1, 0", "[-1, 0"),
+    "thrown along a wall that it touches": THROWN
+    + WALL.replace("-100 mm, 0 m, 0 m], normal: [1, 0, 0]", "0 m, 0 m, -15 mm], normal: [0, 0, 1]")
+    + "gravity: [0 m/s^2, 0 m/s^2, -9.81 m/s^2]\n",
     "nothing moves": CLAMP + WALL,
     "a load": f"loads: [{{node: c, force: {{x: -1 kN}}}}]\n{THROWN}{WALL}",
     "a pole that comes": f"{CLAMP}{POLE}velocity: [0 m/s, 0 m/s, -5 m/s]}}}}\n",

@@ -46,6 +46,12 @@ CHANGES = {
     "wall thickness": ("side: 50 mm, thickness: 2 mm", "side: 9 m, thickness: 200 mm"),
     "largest side": ("side: 50 mm", "side: 50 m"),
     "length of a member": ("[2 m,", "[2000 m,"),
+    "a member's length": ("[2 m,", "[20 m,"),
+    "largest rotation of a law": (
+        "members:",
+        "hinges: {law: {type: table, rotation: [0 rad, 45 rad, 90 rad], moment: [2 kN*m, 1 kN*m, 1 kN*m]}}"
+        "\nmembers:",
+    ),
     "mass": ("10 kg}", "1e9 kg}"),
     "offset of a mass": ("10 kg}", "10 kg, offset: [0 m, 0 m, 500 m]}"),
     "speed": ("5 m/s]", "600 m/s]"),
@@ -86,6 +92,32 @@ def test_alike_values_have_one_sentence():
     (one,) = found(BAR.replace("[1 m,", "[2000 m,").replace("[2 m,", "[4000 m,"))
     assert one.text.startswith("members.ab: 2000 m is far from usual (so are members.bc)")
     assert (one.value, one.limit, one.unit) == (2000.0, 1000.0, "m")
+
+
+def test_a_node_in_metres_for_millimetres_is_a_member_without_thickness():
+    """450 m is within a kilometre, but 9000 times a side of 50 mm; a wrong side has its own sentence."""
+    (one,) = found(BAR.replace("[1 m,", "[450 m,").replace("[2 m,", "[451 m,"))
+    assert one.text == (
+        "members.ab: 9000 times the largest side of its section is far from usual; a member's length is at "
+        "most 200. Check its unit."
+    )
+    assert (one.value, one.limit) == (9000.0, 200.0)
+    small = BAR.replace("side: 50 mm, thickness: 2 mm", "side: 0.5 mm, thickness: 0.03 mm")
+    assert [one.place for one in found(small)] == ["sections.t"]
+
+
+def test_rotations_of_laws_that_hinges_name_or_have_are_looked_at():
+    """Degrees that were written as rad, in a law of the list and in the one of a hinge."""
+    table = "{type: table, rotation: [0 rad, ANGLE rad], moment: [2 kN*m, 1 kN*m]}"
+    for angle, places in (
+        ("90", ["hinge_laws.own.rotation", "members.ab.hinges[0].law.rotation"]),
+        ("3", []),
+    ):
+        given = table.replace("ANGLE", angle)
+        text = BAR.replace("law: {type: kecman}", f"law: {given}") + f"hinge_laws: {{own: {given}}}\n"
+        places_found = [one.text for one in found(text)]
+        assert len(places_found) == bool(places)
+        assert all(place in said for place in places for said in places_found)
 
 
 def test_of_a_rotation_the_speed_of_the_fastest_node_counts():

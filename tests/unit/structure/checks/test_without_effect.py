@@ -82,6 +82,27 @@ def test_a_flow_stress_beside_a_hardening_curve_is_named():
     assert said(BAR.replace(keys, f"{keys}, flow_stress: 600 MPa") + ACTS["velocity"]) == ()
 
 
+def test_check_names_what_nothing_uses_and_a_run_does_not(tmp_path):
+    more = BAR.replace("materials: {", "materials: {alu: {grade: EN AW-6060-T6}, ").replace(
+        "sections: {", "sections: {spare: {type: square_tube, side: 30 mm, thickness: 2 mm}, "
+    )
+    laws = "hinge_laws: {own: {type: estimate}, other: {type: constant}}\n"
+    used = "hinges: [{name: h, at: a, law: own}], section"
+    texts = {
+        BAR: "",
+        more + laws: "Not used: section spare; material alu; hinge laws own, other.",
+        BAR.replace("section", used, 2).replace(used, "section", 1) + laws: "Not used: hinge law other.",
+    }
+    for text, expected in texts.items():
+        file = tmp_path / "bar.yaml"
+        file.write_text(text + GRAVITY, encoding="utf-8")
+        output = CliRunner().invoke(app, ["check", str(file)]).output
+        assert "no mistakes found" in output
+        assert (expected or "no mistakes") in output
+        assert expected or "Not used" not in output
+        assert not any("Not used" in one.text for one in said(text + GRAVITY))
+
+
 def test_a_stage_throws_a_node_without_mass():
     stages = f"{{stages: [{{name: p, duration: 20 ms, initial_velocity: [{{nodes: [b], {UP}}}]}}]}}"
     codes = [one.code for one in said(BAR.replace("{duration: 20 ms}", stages))]
