@@ -101,7 +101,7 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
         unheld_notes,
         with_drives_released,
     )
-    from crumple.structure import with_elastic_members
+    from crumple.structure import corners_without_law, rigid_for_long, with_elastic_members
     from crumple.structure.checks.partly_driven import driven_assumptions
     from crumple.structure.checks.section_axes import section_doubts
 
@@ -114,6 +114,10 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
         (*notes(linkage, with_drives_released(structure, linkage)), infinitesimal(linkage), stuck, *loose),
     )
     yield from driven_assumptions(structure)
+    yield from filter(
+        None, (rigid_for_long(analysis.structure, analysis.multibody, analysis.time_in_motion),)
+    )
+    yield from corners_without_law(structure)
     yield from loose_drives(structure, linkage)
     yield from (f"Caution: {caution.text}" for caution in struck_cautions(structure))
     yield from (f"Caution: {text}" for text in struck_near_ends(structure))

@@ -20,6 +20,7 @@ from crumple.structure.checks.limit_checks import history_problems
 from crumple.structure.checks.obstacle_checks import stage_problems
 from crumple.structure.geometry import Frame, frame_of
 from crumple.structure.hinges.asked import any_automatic
+from crumple.structure.hinges.corner_laws import corners_without_law
 from crumple.structure.hinges.elastic_members import rigid_for_long, with_elastic_members
 from crumple.structure.hinges.hinges import placed_hinges, plastic_hinges, shares_left_out
 from crumple.structure.hinges.joint_reach import joint_reach
@@ -107,6 +108,7 @@ __all__ = [
     "across_plane",
     "any_automatic",
     "changed",
+    "corners_without_law",
     "dent_at_fold",
     "dented_tubes",
     "driven_across",

@@ -50,6 +50,25 @@ def test_a_store_is_used_where_it_is_named_and_frozen_with_the_same_answer(tmp_p
     assert uses == {"post-foot": "formula", "corner-corner": "stored"}
 
 
+def test_rigid_members_and_corners_without_laws_are_said_by_check_and_run(tmp_path):
+    text = FRAME.read_text(encoding="utf-8")
+    plain, long = tmp_path / "plain.yaml", tmp_path / "long.yaml"
+    plain.write_text(text, encoding="utf-8")
+    other = "  other: {type: square_tube, side: 40 mm, thickness: 2 mm}\n"
+    changed = text.replace("sections:\n", f"sections:\n{other}")
+    arm = "arm: {nodes: [corner, tip], section: "
+    changed = changed.replace(f"{arm}tube", f"{arm}other").replace("duration: 60 ms", "duration: 501 ms")
+    long.write_text(changed, encoding="utf-8")
+    said = (
+        "Corner corner has no law of its own, since the sections of the members differ: ",
+        "Members are rigid between their hinges, since the motion is longer than 500 ms; "
+        "analysis.multibody.members: elastic lets them bend.",
+    )
+    for command in (("check",), ("run", "--out", tmp_path / "out", "--no-law-range", "--no-modes")):
+        assert not any(sentence in run(*command, plain).output for sentence in said)
+        assert all(sentence in run(*command, long).output for sentence in said)
+
+
 def test_layouts_use_and_freeze_stores_too(tmp_path):
     store, frozen = corner_store(tmp_path), tmp_path / "used.yaml"
     found = run("layouts", FRAME, "--laws", store, "--freeze-laws", frozen, "--out", tmp_path / "out")

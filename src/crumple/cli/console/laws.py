@@ -82,6 +82,8 @@ def law_lines(result: Result, source: LoadedInput) -> Iterator[str]:
         yield f"Law of {_some(names)}: {sentence}"
     for sentence, names in crushing_laws(result):
         yield f"Crushing of {_some(names)}: {sentence}"
+    if result.fidelity == "multibody":
+        yield from _of_members(source)
 
 
 def _some(names: Sequence[str]) -> str:
@@ -98,6 +100,16 @@ def _types(source: LoadedInput) -> Mapping[str, str]:
 
     analysis = source.analysis
     return law_types_of(with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion))
+
+
+def _of_members(source: LoadedInput) -> Iterator[str]:
+    """Corners without laws of their own, and members that are rigid because the motion is long."""
+    from crumple.structure import corners_without_law, rigid_for_long, with_elastic_members
+
+    given = source.analysis
+    settings = given.multibody, given.time_in_motion
+    yield from corners_without_law(with_elastic_members(given.structure, *settings))
+    yield from filter(None, (rigid_for_long(given.structure, *settings),))
 
 
 def _of_store(texts: Sequence[str], file: Path) -> str:

@@ -25,9 +25,8 @@ from crumple.multibody.checks.struck import struck_near_ends, too_stiff_hats, un
 from crumple.multibody.checks.stuck_drives import loose_drives
 from crumple.multibody.run import Run
 from crumple.result import HingeSummary
-from crumple.structure import PlacedHinge, Structure, dented_tubes, rigid_for_long
+from crumple.structure import PlacedHinge, Structure, corners_without_law, dented_tubes, rigid_for_long
 from crumple.structure.checks.partly_driven import driven_assumptions
-from crumple.structure.hinges.elastic_members import IMPACT
 from crumple.text.names import listed
 from crumple.units import format_quantity, plain_number
 
@@ -77,9 +76,10 @@ SPATIAL = "The motion is spatial: hinges carry rigidly what is not about their o
 def assumptions(structure: Structure, solver: Solver, run: Run) -> tuple[str, ...]:
     """Sentences with the assumptions of the model."""
     jointed = dict.fromkeys(hinge.member for hinge in solver.hinges if not hinge.plastic)
-    rigid = [name for name in structure.members if name not in jointed]
+    long = rigid_for_long(structure, run.settings, run.time_in_motion)
+    rigid = [] if long else [name for name in structure.members if name not in jointed]
     found = [
-        *([_rigid(structure, run)] if not jointed else []),
+        *([long or "Members are rigid between their hinges."] if long or not jointed else []),
         *([f"{named('Member', rigid)} are rigid between hinges."] if jointed and len(rigid) > 1 else []),
         *([f"Member {rigid[0]} is rigid between hinges."] if jointed and len(rigid) == 1 else []),
         "Masses are rigid lumps.",
@@ -96,6 +96,7 @@ def assumptions(structure: Structure, solver: Solver, run: Run) -> tuple[str, ..
         *free_parts(link(structure)),
         *solver.notes,
     ]
+    found += corners_without_law(structure)
     for name, welds in structure.spot_welds.items():
         if len(welds.members) == 2:
             first, second = welds.members
@@ -118,15 +119,6 @@ def assumptions(structure: Structure, solver: Solver, run: Run) -> tuple[str, ..
             "together as stiff as the member and yield as its section does with plane walls."
         )
     return tuple(found)
-
-
-def _rigid(structure: Structure, run: Run) -> str:
-    rigid = "Members are rigid between their hinges"
-    if not rigid_for_long(structure, run.settings, run.time_in_motion):
-        return f"{rigid}."
-    longest = format_quantity(IMPACT, "s")
-    advice = "analysis.multibody.members: elastic lets them bend"
-    return f"{rigid}, since the motion is longer than {longest}; {advice}."
 
 
 def _carries(structure: Structure, hinges: list[PlacedHinge]) -> str:

@@ -10,16 +10,28 @@ from crumple.hinge import build_law
 from crumple.hinge.measured.law_file import read_law, write_law
 from crumple.hinge.measured.library import mirrored
 from crumple.structure.bending import planar
-from crumple.structure.hinges.asked import automatic_of
+from crumple.structure.hinges.asked import any_automatic, automatic_of
 from crumple.structure.hinges.corner.across import bisector_law, is_turned
-from crumple.structure.hinges.corners import Corner, corners
+from crumple.structure.hinges.corners import Corner, Lacks, corners, lacking
 from crumple.structure.hinges.law_choice import automatic_law, folding_slip, stored_text, with_type
 from crumple.structure.hinges.lengthening.stopped import presses
 from crumple.structure.keys.hinge_axes import AxisLaws
 from crumple.structure.keys.law import LawKeys, LawReference
 from crumple.structure.keys.member import Hinge
 from crumple.structure.parts import StructureParts
+from crumple.text.names import listed
 
+APART = "and fold outside of the joint by their own laws"
+FOLDS = f"members are joined rigidly there {APART}, whereas in shells the mitre may fold at a smaller moment"
+WITHOUT: Mapping[Lacks, tuple[str, str]] = {
+    Lacks.ANGLE: ("the angle is above 100 deg", f"members are joined rigidly there, as in shells, {APART}"),
+    Lacks.SECTION: (
+        "the sections of the members differ",
+        f"members are joined rigidly there, as in shells whose walls do not meet, {APART}",
+    ),
+    Lacks.METAL: ("the materials of the members differ", FOLDS),
+}
+"""Why corners have no law of their own, and what is there instead."""
 ELASTIC, MITRED = "elastic-plastic", "mitred_corner"
 
 
@@ -43,6 +55,36 @@ def _corner_laws(structure: StructureParts) -> dict[str, tuple[Corner, LawKeys]]
         if law is not None:
             found[node] = (corner, law)
     return found
+
+
+def corners_without_law(structure: StructureParts) -> list[str]:
+    """Sentences on corners of automatic hinges that have no law of their own, alike ones together."""
+    alike: dict[tuple[str, str], list[str]] = {}
+    if not any_automatic(structure):
+        return []
+    for node, (lacks, reason) in lacking(structure).items():
+        if lacks is not Lacks.INTENDED and all(_wants(structure, one) for one in structure.members_at[node]):
+            alike.setdefault(WITHOUT.get(lacks, (reason, FOLDS)), []).append(node)
+    having = corner_laws(structure)
+    for node, corner in corners(structure).items():
+        if node not in having and _asked(structure, corner) is not None:
+            why = f"no formula has mitres of {structure.section_of(corner.first).kind} sections"
+            then = (
+                "hinges there have the law of their members, whereas the mitre may fold at a smaller moment"
+            )
+            alike.setdefault((why, then), []).append(node)
+    return [
+        f"Corner {nodes[0]} has no law of its own, since {why}: {then}."
+        if len(nodes) == 1
+        else f"Corners {listed(nodes)} have no laws of their own, since {why}: {then}."
+        for (why, then), nodes in alike.items()
+    ]
+
+
+def _wants(structure: StructureParts, member: str) -> bool:
+    """Whether a member has automatic hinges whose laws are not given."""
+    asked = automatic_of(structure, member)
+    return asked is not None and asked.laws is None and automatic_law(structure, asked.law) is not None
 
 
 def _stored(structure: StructureParts, corner: Corner, asked: LawKeys, text: str) -> LawKeys:

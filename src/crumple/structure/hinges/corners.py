@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from enum import Enum, auto
 
 import numpy as np
 
@@ -26,6 +27,18 @@ ALONG = 1e-4
 ALIKE = 5e-3
 """Distance of the points of two outlines, over the section's largest side, below which they are one: square
 tubes turned by 0.4 degrees, far above rounded coordinates and far below a wall's thickness."""
+
+
+class Lacks(Enum):
+    """What two members at an angle lack for a mitred corner."""
+
+    ANGLE = auto()
+    SECTION = auto()
+    METAL = auto()
+    POSITION = auto()
+    """The section does not lie as in the sub-model."""
+    INTENDED = auto()
+    """The input makes the node something else: joined, held, loaded, rigid, or a joint of several members."""
 
 
 @dataclass(frozen=True)
@@ -109,18 +122,24 @@ def corners(structure: StructureParts) -> Mapping[str, Corner]:
 
 def untreated(structure: StructureParts) -> Mapping[str, str]:
     """Nodes at which members meet at an angle that have no sub-model, and why."""
+    return {node: reason for node, (_, reason) in lacking(structure).items()}
+
+
+def lacking(structure: StructureParts) -> Mapping[str, tuple[Lacks, str]]:
+    """The same with the kind of the reason."""
     return structure.kept.once("untreated corners", "", lambda: _corners(structure)[1])
 
 
-def _corners(structure: StructureParts) -> tuple[dict[str, Corner], dict[str, str]]:
-    found, reasons = {}, {}
+def _corners(structure: StructureParts) -> tuple[dict[str, Corner], dict[str, tuple[Lacks, str]]]:
+    found: dict[str, Corner] = {}
+    reasons: dict[str, tuple[Lacks, str]] = {}
     for node, members in structure.members_at.items():
         if len(members) < 2 or not all(structure.is_whole(name) for name in members):
             continue
         answer = _corner(structure, node, members)
         if isinstance(answer, Corner):
             found[node] = answer
-        elif answer:
+        elif answer is not None:
             reasons[node] = answer
     return found, reasons
 
@@ -148,15 +167,15 @@ def kink_at(structure: StructureParts, node: str) -> float:
     return math.atan2(float(np.linalg.norm(np.cross(arriving, onward))), float(arriving @ onward))
 
 
-def _corner(structure: StructureParts, node: str, members: list[str]) -> Corner | str:
-    """Corner at a node, or the reason why there is none; an empty one where members only meet in line."""
+def _corner(structure: StructureParts, node: str, members: list[str]) -> Corner | tuple[Lacks, str] | None:
+    """Corner at a node, or the reason why there is none; None where members only meet in line."""
     if len(members) > 2:
-        return f"{len(members)} members meet"
+        return Lacks.INTENDED, f"{len(members)} members meet"
     first, second = sorted(members, key=list(structure.members).index)
     arriving, onward = -leaving(structure, first, node), leaving(structure, second, node)
     angle = math.acos(float(np.clip(arriving @ onward, -1.0, 1.0)))
     if angle < SMALLEST:
-        return ""
+        return None
     reason = next(_reasons(structure, node, (first, second), angle), None)
     if reason is not None:
         return reason
@@ -164,34 +183,40 @@ def _corner(structure: StructureParts, node: str, members: list[str]) -> Corner 
     normal /= np.linalg.norm(normal)
     axis = _axis_along(structure, first, normal)
     if axis is None:
-        return "no axis of the section is normal to the corner's plane (out of plane)"
-    if not _lie_alike(structure, ((first, arriving), (second, onward)), normal, axis):
-        return "the section does not lie in the same way to the corner's plane in both members"
+        return Lacks.POSITION, "no axis of the section is normal to the corner's plane (out of plane)"
+    ways = ((first, arriving), (second, onward))
+    if not _lie_alike(structure, ways, normal, axis):
+        return Lacks.POSITION, _position(structure, ways, normal, axis)
     ends_here = structure.members[first].nodes[1] == node
     along_normal = float(structure.frame_of(first).axis(axis) @ normal) > 0.0
     sense = 1 if along_normal == ends_here else -1
     return Corner(node, first, second, axis, angle, sense, tuple(normal.tolist()))
 
 
-def _reasons(structure: StructureParts, node: str, members: tuple[str, str], angle: float) -> Iterator[str]:
+def _reasons(
+    structure: StructureParts, node: str, members: tuple[str, str], angle: float
+) -> Iterator[tuple[Lacks, str]]:
     """Why two members that meet at an angle are no mitred corner of one section."""
     one, other = (structure.members[name] for name in members)
     sections = [structure.section_of(name) for name in members]
     materials = [structure.material_of(name) for name in members]
     if any(joint.member in members for joint in structure.joints_at.get(node, ())):
-        yield "the members are joined by a joint"
-    if angle > LARGEST:
-        yield f"the angle is {math.degrees(angle):.0f} deg, above {math.degrees(LARGEST):.0f} deg"
-    if sections[0] != sections[1]:
-        yield f"the sections {one.section} and {other.section} differ"
-    if replace(materials[0], name="") != replace(materials[1], name=""):
-        yield f"the materials {one.material} and {other.material} differ"
+        yield Lacks.INTENDED, "the members are joined by a joint"
     if _held(structure, node):
-        yield "a support holds its rotation"
+        yield Lacks.INTENDED, "a support holds its rotation"
     elif node in structure.loaded_nodes:
-        yield "its section is rigid where a mass, support, load or impulse acts"
+        yield Lacks.INTENDED, "its section is rigid where a mass, support, load or impulse acts"
     if any(_rigid_at(structure, name, node) for name in members):
-        yield "a member is rigid there"
+        yield Lacks.INTENDED, "a member is rigid there"
+    if angle > LARGEST:
+        yield (
+            Lacks.ANGLE,
+            f"the angle is {math.degrees(angle):.0f} deg, above {math.degrees(LARGEST):.0f} deg",
+        )
+    if sections[0] != sections[1]:
+        yield Lacks.SECTION, f"the sections {one.section} and {other.section} differ"
+    if replace(materials[0], name="") != replace(materials[1], name=""):
+        yield Lacks.METAL, f"the materials {one.material} and {other.material} differ"
 
 
 def leaving(structure: StructureParts, member: str, node: str) -> Floats:
@@ -242,6 +267,20 @@ def _lie_alike(
     outlines = [_outline(structure, *one, normal) for one in members]
     reference = outlines[0] if axis is None else _modelled(structure, first, axis)
     return all(_same_points(outline, reference) for outline in outlines)
+
+
+def _position(
+    structure: StructureParts, members: tuple[tuple[str, Floats], ...], normal: Floats, axis: Axis
+) -> str:
+    """How a section lies in two members that meet at an angle, where it does not lie as in the sub-model."""
+    if not _lie_alike(structure, members, normal):
+        return "the section does not lie in the same way to the corner's plane in both members"
+    if _same_points(_outline(structure, *members[0], normal), -_modelled(structure, members[0][0], axis)):
+        return (
+            "the section lies alike in both members, but the other way round than in the sub-model (the "
+            "corner would be recognised with 'roll' larger by 180 deg in both members: another structure)"
+        )
+    return "the section lies alike in both members, but as a mirror image of that of the sub-model"
 
 
 def _outline(structure: StructureParts, member: str, along: Floats, normal: Floats) -> Floats:

@@ -34,6 +34,8 @@ from crumple.structure.keys.member import Member
 from crumple.structure.parts import StructureParts
 from crumple.structure.remembered import remembered
 from crumple.structure.settings.multibody_settings import MultibodySettings
+from crumple.text.names import listed
+from crumple.units import format_quantity
 
 Parts = TypeVar("Parts", bound=StructureParts)
 
@@ -74,9 +76,7 @@ def with_elastic_members(structure: Parts, settings: MultibodySettings, moving: 
     automatic = moving <= IMPACT and any_automatic(structure)
     if settings.members == "rigid" or (settings.members == "auto" and not automatic):
         return structure
-    unsaid = {
-        name for name, spec in structure.members.items() if spec.elastic is None and spec.rigid is not True
-    }
+    unsaid = _unsaid(structure)
     if not unsaid:
         return structure
 
@@ -92,9 +92,30 @@ def with_elastic_members(structure: Parts, settings: MultibodySettings, moving: 
     return structure.kept.once("elastic members", (type(structure), settings.segments), bent)
 
 
-def rigid_for_long(structure: StructureParts, settings: MultibodySettings, moving: float) -> bool:
-    """Whether members do not bend for the only reason that the motion is long; arguments as above."""
-    return settings.members == "auto" and moving > IMPACT and any_automatic(structure)
+def rigid_for_long(structure: StructureParts, settings: MultibodySettings, moving: float) -> str:
+    """Sentence on the members that do not bend for the only reason that the motion is long; else empty.
+
+    Arguments as above.
+    """
+    names = _unsaid(structure)
+    if settings.members != "auto" or moving <= IMPACT or not names or not any_automatic(structure):
+        return ""
+    some = f"{'Member' if len(names) == 1 else 'Members'} {listed(names)}"
+    every = len(names) == len(structure.members)
+    who = "Members are" if every else f"{some} {'is' if len(names) == 1 else 'are'}"
+    whose = "its" if len(names) == 1 and not every else "their"
+    longest, bend = format_quantity(IMPACT, "s"), "them bend" if whose == "their" else "it bend"
+    return (
+        f"{who} rigid between {whose} hinges, since the motion is longer than {longest}; "
+        f"analysis.multibody.members: elastic lets {bend}."
+    )
+
+
+def _unsaid(structure: StructureParts) -> list[str]:
+    """Members of which the input says neither that they are elastic nor that all of them is rigid."""
+    return [
+        name for name, spec in structure.members.items() if spec.elastic is None and spec.rigid is not True
+    ]
 
 
 def _elastic(spec: Member, segments: int) -> Member:

@@ -7,7 +7,14 @@ from tests.support.multibody.frames import CLAMP, member, structure
 
 from crumple.analysis import load
 from crumple.multibody import Run, solve_multibody
-from crumple.structure import AutomaticHinges, MultibodySettings, Stage, placed_hinges, with_elastic_members
+from crumple.structure import (
+    AutomaticHinges,
+    MultibodySettings,
+    Stage,
+    placed_hinges,
+    rigid_for_long,
+    with_elastic_members,
+)
 from crumple.structure.parts import OF_ANY_STIFFNESS
 from crumple.structure.remembered import forget
 
@@ -76,6 +83,22 @@ def test_rigid_bars_of_a_long_motion_say_why():
         run = Run(duration, 0.05, MultibodySettings(**settings), checks=False)
         (rigid,) = (text for text in solve_multibody(whole, run).assumptions if "Members are rigid" in text)
         assert (said in rigid) == expected
+
+
+def test_members_that_say_nothing_are_named_beside_others_that_bend():
+    whole = frame(hinges="auto")
+    names = list(whole.members)
+    settings = MultibodySettings()
+    assert rigid_for_long(whole, settings, 0.49) == ""
+    assert rigid_for_long(whole, MultibodySettings(members="rigid"), 0.51) == ""
+    bends = whole.members[names[0]].model_copy(update={"elastic": 4})
+    partly = whole.with_elastic({**whole.members, names[0]: bends})
+    said = rigid_for_long(partly, settings, 0.51)
+    assert names[0] not in said
+    assert said.startswith(f"Member{'s' if len(names) > 2 else ''} {', '.join(names[1:])} ")
+    assert "since the motion is longer than 500 ms; analysis.multibody.members: elastic lets" in said
+    result = solve_multibody(partly, Run(0.51, 0.05, checks=False))
+    assert said in result.assumptions
 
 
 @pytest.mark.parametrize(("kind", "rigid"), [("quasi-static", False), ("dynamic", True)])

@@ -11,8 +11,17 @@ from crumple.errors import InputError
 from crumple.hinge.bending.pressed import PressedLaw
 from crumple.hinge.measured.place_hash import place_hash
 from crumple.material import Material
+from crumple.multibody import solve_multibody
+from crumple.multibody.run import Run
 from crumple.section import CircularTube, RectangularTube, fold_distance
-from crumple.structure import Structure, law_uses, placed_hinges, used_texts, with_used_laws
+from crumple.structure import (
+    Structure,
+    corners_without_law,
+    law_uses,
+    placed_hinges,
+    used_texts,
+    with_used_laws,
+)
 from crumple.structure.hinges.corners import corners, untreated
 
 METAL = Material("any name", 210e9, 0.3, 7850.0, 488e6)
@@ -261,6 +270,67 @@ def test_corners_without_a_sub_model_are_named_with_the_reason(change, reason):
     whole = frame(members, **rest)
     assert not corners(whole)
     assert reason in untreated(whole)["b"]
+
+
+HAT = {"type": "closed_hat", "width": 0.05, "depth": 0.04, "thickness": 0.0016, "flange": 0.016}
+DOWNWARDS = {"a": (0.0, 0.0, 0.0), "b": (0.0, 0.0, -0.36), "c": (0.28, 0.0, -0.4)}
+HATS = {"sections": {"tube": HAT}, "nodes": DOWNWARDS}
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (
+            {"sections": {"tube": TUBE, "other": TUBE | {"thickness": 0.002}}, "arm": {"section": "other"}},
+            "Corner b has no law of its own, since the sections of the members differ: members are joined "
+            "rigidly there, as in shells whose walls do not meet, and fold outside",
+        ),
+        (
+            {"nodes": NODES | {"c": (0.4, 0.0, 0.05)}},
+            "since the angle is above 100 deg: members are joined rigidly there, as in shells, and fold",
+        ),
+        (
+            {"arm": {"roll": 0.5}},
+            "does not lie in the same way to the corner's plane in both members: members",
+        ),
+        (
+            {**HATS, "roll": math.pi},
+            "no formula has mitres of closed_hat sections: hinges there have the law",
+        ),
+        (HATS, "recognised with 'roll' larger by 180 deg in both members: another structure): members"),
+        ({}, None),
+        ({"hinges": None, "arm": {"hinges": [{"name": "h", "at": 0.1, "law": "kecman"}], "roll": 0.5}}, None),
+        ({"masses": {"m": {"node": "b", "mass": 1.0}}, "nodes": NODES | {"c": (0.4, 0.0, 0.05)}}, None),
+    ],
+)
+def test_corners_without_a_law_of_their_own_are_told(change, said):
+    roll = {"roll": change.get("roll", 0.0)}
+    members = {
+        "post": {"nodes": ("a", "b"), **PLAIN, **roll} | change.get("post", {}),
+        "arm": {"nodes": ("b", "c"), **PLAIN, **roll} | change.get("arm", {}),
+    }
+    whole = frame(members, **{key: value for key, value in change.items() if key not in {*members, "roll"}})
+    found = corners_without_law(whole)
+    assert len(found) == (said is not None)
+    assert all(said in one for one in found)
+    shortly = solve_multibody(whole, Run(1e-5, 1e-5, checks=False))
+    assert set(found) <= set(shortly.assumptions)
+
+
+def test_alike_corners_without_a_law_have_one_sentence():
+    nodes = {"a": (0.0, 0.0, 0.0), "b": (0.0, 0.0, 0.5), "c": (0.5, 0.0, 0.5), "d": (0.5, 0.0, 0.0)}
+    members = {
+        "left": {"nodes": ("a", "b"), **PLAIN},
+        "roof": {"nodes": ("b", "c"), **PLAIN, "section": "other"},
+        "right": {"nodes": ("d", "c"), **PLAIN},
+    }
+    supports = CLAMP | {"far": {"node": "d", "fix": "all"}}
+    sections = {"tube": TUBE, "other": TUBE | {"thickness": 0.002}}
+    whole = frame(members, nodes=nodes, sections=sections, supports=supports, masses={}, initial_velocity=[])
+    (said,) = corners_without_law(whole)
+    assert said.startswith(
+        "Corners b, c have no laws of their own, since the sections of the members differ: "
+    )
 
 
 @pytest.mark.parametrize("across", [1e-6, 1e-5, 1e-3])
