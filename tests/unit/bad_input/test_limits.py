@@ -136,10 +136,14 @@ def test_digits_that_are_not_plain_are_letters_of_a_name(name: str) -> None:
 
 
 @pytest.mark.parametrize("thickness", [0.010, 0.015, 0.020])
-def test_walls_too_thin_for_the_formula_are_refused_with_their_member(tmp_path, thickness: float) -> None:
+def test_walls_too_thin_for_the_formula_are_refused_with_their_section(tmp_path, thickness: float) -> None:
     text = chain(1, "hinges: [{name: root, at: n0}]").replace("thickness: 2 mm", f"thickness: {thickness} mm")
     (tmp_path / "thin.yaml").write_text(text, encoding="utf-8")
-    problem = check(tmp_path / "thin.yaml")[0]
-    assert problem.where == "members.m0.hinges[0]"
-    assert "changes too steeply for a table" in problem.what
+    (problem,) = check(tmp_path / "thin.yaml")
+    assert problem.where == "sections.tube.thickness"
+    assert problem.what == "the walls are too thin: the moment of their folds falls too steeply"
+    assert problem.came.startswith(f"{thickness:g} mm with a largest side of ")
+    allowed = re.fullmatch(r"a 1000th of the side or more, here (.* mm)", problem.allowed)[1]
+    (tmp_path / "thick.yaml").write_text(text.replace(f"{thickness} mm", allowed), encoding="utf-8")
+    assert check(tmp_path / "thick.yaml") == []
     assert "thicker walls" in problem.todo

@@ -25,6 +25,9 @@ SPARE = 1.1
 MOST_PIECES = 4096
 """More than this for one smooth piece means that the curve is not smooth; kinks are missing."""
 
+TOO_STEEP = "changes too steeply for a table"
+"""End of the message on such a curve: where the walls are to blame, the input has a better place for it."""
+
 
 def sampled_envelope(
     law: HingeLaw, sense: int = 1, error: float = 1e-4, rotation_max: float = math.pi
@@ -84,7 +87,7 @@ def sampled_envelope(
             return _shared(points, moment)
         counts = np.where(too_far, np.maximum(counts + 1, np.ceil(1.05 * counts)), counts).astype(np.int64)
     low, high = np.degrees(ends[np.argmax(counts) :][:2])
-    what = f"the capacity of the law '{law.title}' changes too steeply for a table"
+    what = f"the capacity of the law '{law.title}' {TOO_STEEP}"
     came, allowed = (
         f"between {low:.4g} and {high:.4g} deg",
         f"{MOST_PIECES} chords with an error below {error:g}",

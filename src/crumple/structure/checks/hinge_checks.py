@@ -9,9 +9,10 @@ from functools import partial
 from itertools import pairwise, product
 
 from crumple.errors import InputError, Problem
+from crumple.hinge.record.sampling import TOO_STEEP
 from crumple.hinge.registry import BENDING
 from crumple.structure.hinges.automatic import near_fold
-from crumple.structure.hinges.hinges import spatial_record_of
+from crumple.structure.hinges.hinges import spatial_record_of, too_thin
 from crumple.structure.hinges.law_choice import Surroundings
 from crumple.structure.hinges.places import HingePlace, alike_law, law_of, member_hinge_places
 from crumple.structure.hinges.runs.ends import holds_rotation
@@ -126,6 +127,9 @@ def _law_problems(structure: StructureParts, place: HingePlace, known: Names) ->
     if not found:
         found, where = _refusals(lambda: spatial_record_of(structure, place)), place.where
     for problem in found:
+        if problem.what.endswith(TOO_STEEP):
+            yield too_thin(structure, place)
+            continue
         if problem.where == "bound":
             what = f"hinge '{place.name}' of member '{place.member}': {problem.what}"
             written = f"hinge_laws.{named[0]}" if named else where

@@ -20,7 +20,9 @@ from crumple.hinge import (
     SpatialHingeRecord,
     Stop,
 )
+from crumple.hinge.record.sampling import TOO_STEEP
 from crumple.section import Axis
+from crumple.section.section import in_mm
 from crumple.structure.hinges.corner.press import with_corner_press
 from crumple.structure.hinges.corner.shift import with_corner_shift
 from crumple.structure.hinges.corner.slip import with_corner_slip
@@ -57,6 +59,8 @@ AXIS_ROW: dict[Axis, int] = {"y": 1, "z": 2}
 STIFF = 0.1
 """Length of member over the side of its section that bends as a corner that states no flexibility."""
 
+THINNEST = 1e-3
+"""Wall thickness over the largest side from which the laws of all shapes have tables; some need a third."""
 OWN_HINGES = ("placed hinges", "")
 """Where a structure keeps what `placed_hinges` found."""
 
@@ -90,9 +94,9 @@ def _placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
             try:
                 own[member].append(_placed(structure, place, shares[place.name]))
             except InputError as error:
-                problems += [_of_hinge(place, problem) for problem in error.problems]
+                problems += [_of_hinge(structure, place, problem) for problem in error.problems]
     if problems:
-        raise InputError(problems)
+        raise InputError(list(dict.fromkeys(problems)))
     joints: dict[str, list[PlacedHinge]] = defaultdict(list)
     for bar, about in bars.values():
         go_on()
@@ -102,8 +106,25 @@ def _placed_hinges(structure: StructureParts) -> tuple[PlacedHinge, ...]:
     return tuple(hinge for member, hinges in own.items() for hinge in (*hinges, *joints[member]))
 
 
-def _of_hinge(place: HingePlace, problem: Problem) -> Problem:
+def too_thin(structure: StructureParts, place: HingePlace) -> Problem:
+    """Walls so thin that the moment of their fold has no table: it falls to nothing within a small angle."""
+    name = structure.members[place.member].section
+    section = structure.section_of(place.member)
+    side = float(np.ptp(section.outer_outline(), axis=0).max())
+    key = ".thickness" if "thickness" in getattr(structure.sections[name], "own", {}) else ""
+    return Problem(
+        "the walls are too thin: the moment of their folds falls too steeply",
+        f"{in_mm(section.thickness)} with a largest side of {in_mm(side)}",
+        f"a {1.0 / THINNEST:.0f}th of the side or more, here {in_mm(THINNEST * side)}",
+        "check the unit, and give thicker walls",
+        f"sections.{name}{key}",
+    )
+
+
+def _of_hinge(structure: StructureParts, place: HingePlace, problem: Problem) -> Problem:
     """Problem of a hinge's law, with the hinge, its member, and its path in the input."""
+    if problem.what.endswith(TOO_STEEP):
+        return too_thin(structure, place)
     key = f"{problem.where}: " if problem.where else ""
     what = f"hinge '{place.name}' of member '{place.member}': {key}{problem.what}"
     return replace(problem, what=what, where=place.where)
