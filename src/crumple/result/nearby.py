@@ -66,18 +66,27 @@ class Mode:
     slips
         Hinges that shorten (less than 0) or lengthen along their members, and by how much at the end of that
         run [m], the largest first; where no hinge turns by a fifth of the largest rotation of all runs.
+    between
+        Energy that members took in that run without hinges [J]; where no hinge turns or slips, else 0.
     """
 
     hinges: tuple[str, ...]
     rotations: tuple[float, ...]
     runs: tuple[str, ...]
     slips: tuple[tuple[str, float], ...] = ()
+    between: float = 0.0
 
     @property
     def told(self) -> str:
         """Its largest rotations, and what is crushed where these are small."""
         said = (self._turns, self._slips)
-        return ", and ".join(filter(None, said)) or "no hinge turns"
+        return ", and ".join(filter(None, said)) or f"no hinge turns{self._yields}"
+
+    @property
+    def _yields(self) -> str:
+        return (
+            f", members yield between hinges ({format_quantity(self.between, 'J')})" if self.between else ""
+        )
 
     @property
     def _slips(self) -> str:
@@ -147,6 +156,7 @@ def modes_of(text: Mapping[str, Any] | None) -> Modes | None:
 
 
 def _mode_of(text: Mapping[str, Any]) -> Mode:
-    # files of earlier versions have no slips
+    # files of earlier versions have neither slips nor the energy between hinges
     slips = tuple((name, float(slip)) for name, slip in text.get("slips", ()))
-    return Mode(tuple(text["hinges"]), tuple(text["rotations"]), tuple(text["runs"]), slips)
+    hinges, rotations, runs = (tuple(text[key]) for key in ("hinges", "rotations", "runs"))
+    return Mode(hinges, rotations, runs, slips, float(text.get("between", 0.0)))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -42,6 +42,8 @@ ROOM = math.radians(2.0)
 """Difference up to which two runs have the same mode in any case [rad]."""
 SHORT = 1e-3
 """Slip of a hinge along its member below which it is not named [m]."""
+YIELDS = 1e-3
+"""Energy that members take between hinges over all that there is from which it is named [-]."""
 RESULT = "as given"
 """Name of the run that is the result itself."""
 Changes = dict[str, float]
@@ -106,15 +108,20 @@ def modes(
         name: np.array([abs(one.rotations.get(hinge, 0.0)) for hinge in folds]) for name, one in ended.items()
     }
     slips = {name: one.slips for name, one in ended.items()}
-    return Modes(grouped(folds, sizes, slips), tuple(name for name in found if name not in ended))
+    between = {name: one.between for name, one in ended.items()}
+    return Modes(grouped(folds, sizes, slips, between), tuple(name for name in found if name not in ended))
 
 
 @dataclass(frozen=True)
 class _Ended:
-    """Plastic rotations [rad] and slips along the members [m] of the hinges at the end of a run."""
+    """Plastic rotations [rad] and slips along the members [m] of the hinges at the end of a run.
+
+    And the energy that members took without hinges [J], 0 where dents, or next to nothing, may be all of it.
+    """
 
     rotations: Mapping[str, float]
     slips: Mapping[str, float]
+    between: float
 
 
 def _ended(last: Mapping[str, float], hinges: list[str]) -> _Ended:
@@ -123,7 +130,17 @@ def _ended(last: Mapping[str, float], hinges: list[str]) -> _Ended:
     return _Ended(
         {name: float(last[f"hinge.{name}.plastic_rotation"]) for name in hinges},
         {name: float(slip) for name, slip in slips.items() if slip is not None},
+        _between(last, hinges),
     )
+
+
+def _between(last: Mapping[str, float], hinges: list[str]) -> float:
+    """Energy that members took without hinges [J], from the last values of channels by name."""
+    absorbed = float(last.get("energy.dissipated", 0.0))
+    rest = absorbed - sum(float(last.get(f"hinge.{name}.energy", 0.0)) for name in hinges)
+    dents = any(value > 0.0 for name, value in last.items() if name.endswith(".dent"))
+    given = absorbed + float(last.get("energy.kinetic", 0.0))
+    return rest if not dents and rest > YIELDS * given else 0.0
 
 
 def _row(table: VariantTable, row: int, hinges: list[str]) -> _Ended:
@@ -151,7 +168,10 @@ def is_impact(structure: Structure, run: Run) -> bool:
 
 
 def grouped(
-    names: list[str], ended: Mapping[str, Floats], slips: Mapping[str, Mapping[str, float]] | None = None
+    names: list[str],
+    ended: Mapping[str, Floats],
+    slips: Mapping[str, Mapping[str, float]] | None = None,
+    between: Mapping[str, float] | None = None,
 ) -> tuple[Mode, ...]:
     """Runs by mode.
 
@@ -163,6 +183,8 @@ def grouped(
         Rotations at the end of each run [rad], without sign, in the order of the hinges' names.
     slips
         Slips of hinges along their members at the end of each run [m].
+    between
+        Energy that members took without hinges in each run [J].
     """
     largest = max(float(values.max()) for values in ended.values())
     apart = max(APART * largest, ROOM)
@@ -174,7 +196,11 @@ def grouped(
                 break
         else:
             groups.append((values, [name]))
-    return tuple(_mode(names, first, (slips or {}).get(runs[0], {}), runs, largest) for first, runs in groups)
+    found = (_mode(names, first, (slips or {}).get(runs[0], {}), runs, largest) for first, runs in groups)
+    return tuple(
+        mode if mode.hinges or mode.slips else replace(mode, between=(between or {}).get(mode.runs[0], 0.0))
+        for mode in found
+    )
 
 
 def _mode(

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from crumple.numeric.ranking import largest_first
-from crumple.report.wording.key_figures import ROUNDING, between_hinges, crush_matters
+from crumple.report.wording.key_figures import ROUNDING, between_hinges, crush_matters, rounding
 from crumple.report.wording.wording import Verdict, degrees, percent
 from crumple.result import Result
 from crumple.units import format_quantity
@@ -29,7 +29,7 @@ def one_mode(result: Result) -> list[str]:
 
 def _absorbed(result: Result) -> str:
     channel = result.channels.get("energy.dissipated")
-    if channel is None or not len(channel.values) or not channel.values[-1] > 0.0:
+    if channel is None or not len(channel.values) or not channel.values[-1] > rounding(result):
         return ""
     absorbed = float(channel.values[-1])
     total = format_quantity(absorbed, "J")

@@ -14,7 +14,7 @@ from crumple.cli.main import app
 from crumple.errors import CancelledError, Status
 from crumple.multibody import modes
 from crumple.multibody.variants.contact_points import contact_points
-from crumple.multibody.variants.modes import _alone, grouped, is_impact
+from crumple.multibody.variants.modes import _alone, _between, grouped, is_impact
 from crumple.multibody.variants.variants import solve_variants
 from crumple.result import read, summary, write
 from crumple.result.nearby import Mode, Modes, modes_of
@@ -140,17 +140,27 @@ def test_a_mode_in_which_hinges_hardly_turn_says_what_is_crushed():
     only = {"as given": turned["as given"], "crushed": np.radians([0.0, 0.0, 0.01])}
     assert grouped(["a", "b", "c"], only, slips)[1].told == "a shortens by 49 mm, b lengthens by 25 mm"
     assert grouped(["a", "b", "c"], only)[1].told == "no hinge turns"
+    # what no hinge took, members did
+    took = {"as given": 5.0, "crushed": 310.0}
+    said = [mode.told for mode in grouped(["a", "b", "c"], only, None, took)]
+    assert said == ["a 1.7e+02°, b 1.6e+02°", "no hinge turns, members yield between hinges (310 J)"]
     # less than a millimetre is not named
     assert grouped(["a", "b", "c"], only, {"crushed": {"c": -0.0009}})[1].told == "no hinge turns"
 
 
 def test_slips_are_kept_and_files_without_them_are_read():
-    found = Modes((Mode(("a",), (1.0,), ("as given",)), Mode((), (), ("crushed",), (("a", -0.04),))))
+    found = Modes(
+        (
+            Mode(("a",), (1.0,), ("as given",)),
+            Mode((), (), ("crushed",), (("a", -0.04),)),
+            Mode((), (), ("yields",), (), 310.0),
+        )
+    )
     stored = json.loads(json.dumps(asdict(found)))
     assert modes_of(stored) == found
     for mode in stored["modes"]:
-        del mode["slips"]
-    assert [mode.slips for mode in modes_of(stored).modes] == [(), ()]
+        del mode["slips"], mode["between"]
+    assert [(mode.slips, mode.between) for mode in modes_of(stored).modes] == [((), 0.0)] * 3
 
 
 STRUTS = """crumple: 1
@@ -179,6 +189,18 @@ def test_struts_that_are_crushed_are_no_mode_without_hinges():
     assert min(slip for _, slip in crushed.slips) < -0.02
     assert "shortens by" in result.modes.sentence
     assert "no hinge turns" not in result.modes.sentence
+
+
+def test_energy_that_no_hinge_took_is_of_members_unless_something_is_dented():
+    last = {
+        "energy.dissipated": 500.0,
+        "energy.kinetic": 20.0,
+        "hinge.a.energy": 150.0,
+        "hinge.b.energy": 40.0,
+    }
+    assert _between(last, ["a", "b"]) == 310.0
+    assert _between(last | {"hinge.b.energy": 350.0}, ["a", "b"]) == 0.0
+    assert _between(last | {"obstacle.pole.dent": 2e-3}, ["a", "b"]) == 0.0
 
 
 def test_capacities_friction_and_stiffness_change_by_their_shares(monkeypatch):

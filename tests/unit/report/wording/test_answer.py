@@ -70,6 +70,21 @@ def test_what_members_that_vibrate_lose_is_not_told():
     assert between_hinges(some) == pytest.approx(0.003)
 
 
+def test_rounding_is_no_energy():
+    """A structure that flies past a wall dissipated 3e-33 J, beside 6 kJ of kinetic energy or none."""
+    result = tube_result()
+    hinge = replace(result.hinges["root"], energy=0.0)
+    for kinetic, dissipated in ((6.4e3, 3.1e-33), (0.0, 3.1e-33), (6.4e3, 1e-7)):
+        energies = {"energy.dissipated": dissipated, "energy.kinetic": kinetic}
+        channels = {
+            name: replace(channel, values=0.0 * channel.values + energies.get(name, 0.0))
+            for name, channel in result.channels.items()
+        }
+        still = replace(result, hinges={"root": hinge}, channels=channels)
+        assert between_hinges(still) == 0.0
+        assert "absorbed" not in sentences(still)[0]
+
+
 def test_the_error_is_that_of_the_largest_rotation():
     far = replace(tube_result().hinges["root"], rotation_max=0.5, rotation_error=0.001)
     near = replace(far, rotation_max=0.1, rotation_error=0.01)
