@@ -132,6 +132,8 @@ def _table() -> dict[str, Unit]:
     return units
 
 
+COLLOQUIAL: dict[str, str] = {"kilo": "kg", "kilos": "kg"}
+"""Units by what people say, which pint takes for others: a kilosecond."""
 TABLE = _table()
 """Units known without pint."""
 
@@ -376,7 +378,7 @@ def _parse_unit(unit_text: str) -> Unit:
 
 
 def _named_unit(name: str) -> Unit:
-    known = TABLE.get(name) or _pint_unit(name)
+    known = TABLE.get(name) or (None if name in COLLOQUIAL else _pint_unit(name))
     if known is None:
         hint = f" (did you mean {' or '.join(_meant(name))}?)" if _meant(name) else ""
         raise QuantityError(f"unknown unit {_quoted(name)}{hint}")
@@ -385,6 +387,8 @@ def _named_unit(name: str) -> Unit:
 
 def _meant(name: str) -> list[str]:
     """Units that an unknown name may stand for: kg for "kgs", J*s for "Js", else those spelt nearly so."""
+    if name in COLLOQUIAL:
+        return [COLLOQUIAL[name]]
     one = TABLE.get(name[:-1]) if name.endswith("s") else None
     if one is not None:
         # a plural is that of a base unit

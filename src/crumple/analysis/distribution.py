@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 import re
 from collections.abc import Mapping
@@ -148,9 +149,30 @@ def unit_at(document: object | None, place: str, where: str) -> str | None:
         else:
             part = None
     if part is None:
-        what, todo = "the base input has nothing at this path", "correct the path, or write the value there"
+        what, near = "the base input has nothing at this path", _nearest_path(document, place.split("."))
+        todo = f"did you mean '{near}'?" if near else "correct the path, or write the value there"
         raise InputError(Problem(what, place, "a path that is written in the base input", todo, where))
     if isinstance(part, int | float):
         return "1"
     match = _UNIT.fullmatch(part) if isinstance(part, str) else None
     return match[1] if match else None
+
+
+def _nearest_path(document: object, keys: list[str]) -> str:
+    """The path in an input whose keys are nearly those of another path; empty if there is none."""
+    part, found = document, []
+    if isinstance(part, dict) and keys[0] not in part and keys[0] == "structure":
+        keys = keys[1:]
+    for key in keys:
+        if isinstance(part, dict):
+            known = {str(name): value for name, value in part.items()}
+        elif isinstance(part, list):
+            known = {str(i): value for i, value in enumerate(part)}
+        else:
+            return ""
+        close = [key] if key in known else difflib.get_close_matches(key[:64], known, n=1)
+        if not close:
+            return ""
+        part = known[close[0]]
+        found.append(close[0])
+    return ".".join(found) if isinstance(part, int | float | str) else ""

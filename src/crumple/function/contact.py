@@ -17,7 +17,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from crumple.errors import InputError
+from crumple.errors import InputError, Problem
 from crumple.function.transition import step
 from crumple.numeric.arrays import Floats
 
@@ -56,7 +56,11 @@ def impact(x: ArrayLike, v: ArrayLike, x1: float, k: float, e: float, cmax: floa
     """
     if not (0.0 <= k < math.inf and 1.0 <= e < math.inf and 0.0 <= cmax < math.inf and 0.0 <= d < math.inf):
         came = f"k = {k:g}, e = {e:g}, cmax = {cmax:g}, d = {d:g}"
-        raise InputError(f"impact and bistop need finite k, cmax and d >= 0 and e >= 1, not {came}")
+        what, allowed = (
+            "impact and bistop need finite k, cmax and d >= 0 and e >= 1",
+            "k, cmax, d >= 0; e >= 1",
+        )
+        raise InputError(Problem(what, came, allowed, "correct the sign, or the exponent"))
     position, rate = np.broadcast_arrays(np.asarray(x, np.float64), np.asarray(v, np.float64))
     penetration = np.maximum(x1 - position, 0.0)
     damper = step(position, x1 - d, 1.0, x1, 0.0) if x1 - d < x1 else np.ones_like(position)
@@ -93,7 +97,8 @@ def bistop(
     BISTOP as documented for ADAMS and MotionSolve.
     """
     if not x1 < x2:
-        raise InputError(f"bistop needs x1 < x2, not x1 = {x1:g} and x2 = {x2:g}")
+        came, todo = f"x1 = {x1:g}, x2 = {x2:g} (SI)", "exchange them, or correct the places"
+        raise InputError(Problem("bistop needs x1 < x2", came, "x1 < x2", todo))
     position, rate = np.asarray(x, np.float64), np.asarray(v, np.float64)
     lower = impact(position, rate, x1, k, e, cmax, d)
     upper = impact(-position, -rate, -x2, k, e, cmax, d)

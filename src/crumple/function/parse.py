@@ -12,6 +12,7 @@ A function is written as a quantity (``5 kN``) or as a mapping with exactly one 
 
 from __future__ import annotations
 
+import difflib
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -28,6 +29,8 @@ MAX_DEPTH = 8
 """Largest nesting depth of sums and motions; deeper input is a mistake."""
 MAX_ROWS = 100_000
 """Rows of a table in an input file, and terms of a sum."""
+EXAMPLE = "{havsin: {x0: 0 ms, h0: 0, x1: 10 ms, h1: ...}} or {table: {time: [...], value: [...]}}"
+"""Functions as one writes them."""
 
 _MOTION_UNIT = {"N": "m", "N*m": "rad"}
 
@@ -78,11 +81,17 @@ class _Reader:
             if not isinstance(spec, Mapping):
                 function = Constant(self.number(spec, unit, where))
             elif depth > MAX_DEPTH:
-                raise InputError(f"functions are nested more than {MAX_DEPTH} deep")
+                what, todo = (
+                    f"functions are nested more than {MAX_DEPTH} deep",
+                    "write one sum of all its terms",
+                )
+                raise InputError(Problem(what, todo=todo))
             elif len(spec) != 1 or next(iter(spec)) not in self._READERS:
                 came = ", ".join(str(key)[:40] for key in list(spec)[:5])
                 allowed = f"one key of {', '.join(self._READERS)}"
-                raise InputError(Problem("this is not a function of time", came=came, allowed=allowed))
+                near = difflib.get_close_matches(came, self._READERS, n=1) if len(spec) == 1 else []
+                todo = f"did you mean '{near[0]}'?" if near else f"write it as {EXAMPLE}"
+                raise InputError(Problem("this is not a function of time", came, allowed, todo))
             else:
                 kind, body = next(iter(spec.items()))
                 where = f"{where}.{kind}" if where else kind
@@ -118,7 +127,8 @@ class _Reader:
     def stop(self, body: object, unit: str, where: str, depth: int) -> TimeFunction | None:
         motion_unit = _MOTION_UNIT.get(unit)
         if motion_unit is None:
-            raise InputError(f"impact and bistop give a force or a moment, but a value in {unit} is needed")
+            what = f"impact and bistop give a force or a moment, but a value in {unit} is needed"
+            raise InputError(Problem(what, todo="use a table, or a step, step5 or havsin"))
         travel = ("x1", "x2") if where.endswith("bistop") else ("x1",)
         fields = _fields(body, ("x", *travel, "k", "e", "cmax", "d"))
         motion = self.function(fields["x"], motion_unit, f"{where}.x", depth + 1)
@@ -179,12 +189,16 @@ def _fields(body: object, needed: tuple[str, ...], optional: tuple[str, ...] = (
     """The mapping itself, refused unless it has every needed key and no unknown one."""
     allowed = ", ".join((*needed, *optional))
     if not isinstance(body, Mapping):
-        raise InputError(Problem("a mapping is needed", came=type(body).__name__, allowed=allowed))
+        todo = f"write its keys with values: {{{needed[0]}: ...}}"
+        raise InputError(Problem("a group of keys is needed here", _kind(body), allowed, todo))
     missing = [name for name in needed if name not in body]
     unknown = [str(name)[:40] for name in body if name not in (*needed, *optional)]
     problems = [
-        Problem(f"{what}: {listed(names, 8)}", allowed=allowed)
-        for what, names in (("missing", missing), ("unknown key", unknown))
+        Problem(f"{what}: {listed(names, 8)}", allowed=allowed, todo=todo)
+        for what, names, todo in (
+            ("missing", missing, "add it" if len(missing) == 1 else "add them"),
+            ("unknown key", unknown, "remove it or correct its spelling"),
+        )
         if names
     ]
     if problems:
@@ -195,7 +209,17 @@ def _fields(body: object, needed: tuple[str, ...], optional: tuple[str, ...] = (
 def _rows(values: object) -> Sequence[Any]:
     if isinstance(values, Sequence) and not isinstance(values, (str, bytes)) and len(values) <= MAX_ROWS:
         return values
-    raise InputError(Problem(f"a list of at most {MAX_ROWS} entries is needed", came=type(values).__name__))
+    what, came = f"a list of at most {MAX_ROWS} entries is needed", _kind(values)
+    raise InputError(Problem(what, came, todo="write a list in brackets, of fewer entries if it is longer"))
+
+
+def _kind(value: object) -> str:
+    """What a value is, in words of the input file."""
+    if isinstance(value, str | Real):
+        return str(value)[:40]
+    if isinstance(value, Mapping):
+        return "keys with values"
+    return f"a list of {len(value)}" if isinstance(value, Sequence) else "nothing"
 
 
 def _unknown(values: Mapping[str, float]) -> bool:

@@ -223,7 +223,9 @@ class Sum(TimeFunction):
 
     def __post_init__(self) -> None:
         if not self.terms:
-            raise InputError("a sum needs at least one term")
+            raise InputError(
+                Problem("a sum needs at least one term", todo="add a function of time, or write 0")
+            )
 
     def __call__(self, t: ArrayLike) -> Floats:
         return np.asarray(sum(term(t) for term in self.terms))

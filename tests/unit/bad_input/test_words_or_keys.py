@@ -89,6 +89,54 @@ def test_what_is_allowed_and_what_to_do_are_said(tmp_path, case):
     assert todo in problem.todo
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "where", "allowed", "todo"),
+    [
+        ("supports:", "supports: {other: clamp}\nx:", "supports.other", "node, fix, motion", "{node: ...}"),
+        (
+            "supports:",
+            "obstacles: {p: wall}\nsupports:",
+            "obstacles.p",
+            "'type' among them",
+            "{type: ...}",
+        ),
+        (
+            "supports:",
+            "obstacles: {p: {type: pole, point: [0 m, 0 m, 0 m]}}\nsupports:",
+            "obstacles.p",
+            "cylinder",
+            "did you mean 'cylinder'?",
+        ),
+        (
+            "supports:",
+            "obstacles: {p: {type: plain, point: [0 m, 0 m, 0 m]}}\nsupports:",
+            "obstacles.p",
+            "cylinder",
+            "did you mean 'plane'?",
+        ),
+        ("type: rectangular_tube", "type: RHS", "sections.tube", "square_tube", "'rectangular_tube'"),
+    ],
+)
+def test_words_for_groups_and_types_are_answered_with_keys_and_types(
+    old, new, where, allowed, todo, tmp_path
+):
+    assert old in GOOD
+    path = tmp_path / "a.yaml"
+    path.write_text(GOOD.replace(old, new, 1), encoding="utf-8")
+    problem = next(one for one in check(path) if one.where == where)
+    assert allowed in problem.allowed
+    assert todo in problem.todo
+
+
+@pytest.mark.parametrize("given", ["", " {}"])
+def test_no_members_are_one_problem(given, tmp_path):
+    path = tmp_path / "a.yaml"
+    begin, end = GOOD.index("\nmembers:"), GOOD.index("\nsupports:")
+    text = f"{GOOD[:begin]}\nmembers:{given}\n{GOOD[end : GOOD.index('  section_rotations:')]}"
+    path.write_text(text, encoding="utf-8")
+    assert [one.where for one in check(path)] == ["members"]
+
+
 @pytest.mark.parametrize("value", ["4", "4.0", '"4"', "true", "false", "0"])
 def test_numbers_of_segments_are_taken_as_they_were(tmp_path, value):
     path = tmp_path / "a.yaml"

@@ -72,7 +72,7 @@ def test_plain_data_reads_back(spec) -> None:
         ({}, "", "not a function of time"),
         ({"stp": {}}, "", "not a function of time"),
         ({"step": {}, "sum": []}, "", "not a function of time"),
-        ({"step": "0 N"}, "step", "a mapping is needed"),
+        ({"step": "0 N"}, "step", "a group of keys is needed"),
         ({"step": {**STEP["step"], "x2": 0}}, "step", "unknown key: x2"),
         ({"step": {"x0": 0, "h0": 0, "x1": "1 s"}}, "step", "missing: h1"),
         ({"step": {**STEP["step"], "x0": "20 ms"}}, "step", "x0 < x1"),
@@ -105,6 +105,32 @@ def test_mistakes_are_placed(spec, where: str, what: str) -> None:
     assert what in places[where]
 
 
+@pytest.mark.parametrize(
+    ("spec", "todo"),
+    [
+        ({"havsine": {}}, "did you mean 'havsin'?"),
+        ({"pulse": {}}, "write it as {havsin: "),
+        ({"step": "0 N"}, "write its keys with values: {x0: ...}"),
+        ({"step": [0, 1]}, "write its keys with values: {x0: ...}"),
+        ({"havsin": {"x0": 0, "h0": 0, "x1": "1 s"}}, "add it"),
+        ({"havsin": {"x0": 0, "h0": 0}}, "add them"),
+        ({"step": {**STEP["step"], "x2": 0}}, "remove it or correct its spelling"),
+        ({"table": {"time": 5, "value": ["0 N"]}}, "write a list in brackets"),
+        ({"table": {"time": {"a": 1}, "value": None}}, "write a list in brackets"),
+        ({"sum": "3 N"}, "write a list in brackets"),
+        ({"sum": []}, "add a function of time"),
+        ({"impact": {**IMPACT["impact"], "d": "-1 mm"}}, "correct the sign"),
+        ({"bistop": {**IMPACT["impact"], "x2": "-1 mm"}}, "exchange them"),
+        ({"step": {**STEP["step"], "x0": "20 ms"}}, "exchange them"),
+        ({"table": {"time": ["0 s"], "value": ["0 N"]}}, "give a value for each place"),
+    ],
+)
+def test_every_mistake_says_what_to_do(spec, todo: str) -> None:
+    with pytest.raises(InputError) as caught:
+        parse_time_function(spec, "N")
+    assert all(problem.todo.startswith(todo) for problem in caught.value.problems)
+
+
 def test_every_mistake_at_once() -> None:
     spec = {"sum": [{"step": {"x0": "1 m", "h0": "1 s", "x1": "1 N", "h1": "1 kg"}}, "5 mm", {"x": 1}]}
     with pytest.raises(InputError) as caught:
@@ -120,13 +146,15 @@ def test_every_mistake_at_once() -> None:
 
 
 def test_impact_needs_a_force() -> None:
-    with pytest.raises(InputError, match="give a force or a moment"):
+    with pytest.raises(InputError, match="give a force or a moment") as caught:
         parse_time_function(IMPACT, "m")
+    assert "use a table" in caught.value.problems[0].todo
 
 
 def test_nesting_is_bounded() -> None:
     spec: object = "1 N"
     for _ in range(50):
         spec = {"sum": [spec]}
-    with pytest.raises(InputError, match="nested more than"):
+    with pytest.raises(InputError, match="nested more than") as caught:
         parse_time_function(spec, "N")
+    assert caught.value.problems[0].todo == "write one sum of all its terms"

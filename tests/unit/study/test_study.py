@@ -321,6 +321,13 @@ def test_a_full_disk_is_no_defect(run_command, tmp_path, monkeypatch):
         ({"variable": WALL.replace("2 mm", "2 kg")}, 4, "kg is the unit of a mass"),
         ({"variable": WALL.replace("2 mm", "2")}, 4, "the unit is missing"),
         ({"variable": "{path: sections.tub.thickness, low: 1 mm, high: 2 mm}"}, 4, "nothing at this path"),
+        ({"variable": WALL.replace("tube.thickness", "tueb.thickness")}, 4, "'sections.tube.thickness'?"),
+        (
+            {"variable": WALL.replace("sections.tube", "structure.sections.tube")},
+            4,
+            "'sections.tube.thickness'?",
+        ),
+        ({"variable": WALL.replace("thickness", "colour")}, 4, "correct the path"),
         ({"variable": "{path: initial_velocity}"}, 4, "the range is missing"),
         ({"variable": "{path: initial_velocity, low: 2, high: 1}"}, 4, "low must be below high"),
         ({"response": "{channel: hinge.rot.rotation}"}, 6, "no such channel"),

@@ -160,7 +160,7 @@ def test_suggests_the_spelling() -> None:
 
 @pytest.mark.parametrize(
     ("written", "unit", "meant"),
-    [("25 kgs", "kg", "kg"), ("25 mms", "m", "mm"), ("5 Js", "N*m*s", "J*s")],
+    [("25 kgs", "kg", "kg"), ("25 mms", "m", "mm"), ("5 Js", "N*m*s", "J*s"), ("5 kilos", "kg", "kg")],
 )
 def test_suggests_the_unit_of_a_plural(written: str, unit: str, meant: str) -> None:
     with pytest.raises(QuantityError) as caught:

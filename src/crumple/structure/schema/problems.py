@@ -56,12 +56,13 @@ def placed_problems(
             inner = [(problem, (*place, *path_of(problem.where))) for problem in context["problems"]]
             placed += [(path, replace(problem, where=spelled(path))) for problem, path in inner]
             continue
-        keys = _keys(model, details["loc"][:-1]) if details["type"] == "extra_forbidden" else []
+        reached = _LISTING.get(details["type"])
+        keys = [] if reached is None else _keys(model, details["loc"][: len(details["loc"]) - reached])
         value = details["input"]
         if context.get("key") and isinstance(value, Mapping):
             value = value.get(context["key"])
         problem = _problem(str(details["type"]), details["msg"], value, context, place, keys)
-        if keys and (types := _types_with(model, details["loc"])):
+        if keys and reached and (types := _types_with(model, details["loc"])):
             problem = replace(problem, todo=f"remove it, or choose type {' or '.join(types)}, which has it")
         if details["type"] == "missing" and place and isinstance(place[-1], int):
             # every missing entry is reported separately; the last one gives the required number
@@ -186,18 +187,29 @@ def _problem(
         return Problem(f"the key '{key}' is missing", todo=f"add '{key}'", where=where)
     if kind in {"union_tag_invalid", "union_tag_not_found"}:
         return _unknown_type(value, context, where)
+    if keys:
+        what, todo = "a group of keys is needed here", f"write keys with values: {{{keys[0]}: ...}}"
+        return Problem(what, came, f"keys with values: {listed(keys, MOST_ALLOWED)}", todo, where)
+    return _worded((kind, message), value, context, where)
+
+
+def _not_permitted(value: Any, expected: str, where: str) -> Problem:
+    """A word that is none of a list."""
+    words = re.findall(r"'([^']*)'", expected)
+    allowed, todo = one_of(words) if words else expected, suggestion(value, words)
+    return Problem("this is not one of the permitted values", shown(value), allowed, todo, where)
+
+
+def _worded(error: tuple[str, str], value: Any, context: Mapping[str, Any], where: str) -> Problem:
+    """The refusal of a value by `_WORDS`; `error`: its kind and pydantic's message."""
+    kind, message = error
     if kind in {"literal_error", "enum"}:
-        expected = str(context.get("expected", ""))
-        words = re.findall(r"'([^']*)'", expected)
-        allowed = one_of(words) if words else expected
-        return Problem(
-            "this is not one of the permitted values", came, allowed, suggestion(value, words), where
-        )
+        return _not_permitted(value, str(context.get("expected", "")), where)
     what, allowed = _WORDS.get(kind, (message, ""))
     todo = f"write {allowed}" if what.endswith(_NEEDED) else ""
     if kind == "too_long" and not isinstance(value, Mapping):
         todo = DECIMAL_POINT if _is_cut_by_commas(value) else "remove what is too much"
-    return Problem(what, came, allowed.format_map(_Blank(context)), todo, where)
+    return Problem(what, shown(value), allowed.format_map(_Blank(context)), todo, where)
 
 
 def _is_cut_by_commas(values: Iterable[object]) -> bool:
@@ -217,16 +229,40 @@ def _too_short(value: Any, place: Place) -> Problem:
 
 def _unknown_type(value: Any, context: Mapping[str, Any], where: str) -> Problem:
     """A part whose key ``type`` names no known one, or is missing."""
-    if not isinstance(value, Mapping):
-        allowed = "keys with values, 'type' among them"
-        return Problem("a group of keys is needed here", shown(value), allowed, "", where)
     types = _TAG.findall(str(context.get("expected_tags", "")))
+    if not isinstance(value, Mapping):
+        allowed = (
+            f"keys with values, 'type' among them{': ' if types else ''}{one_of(types) if types else ''}"
+        )
+        todo = "write keys with values: {type: ...}"
+        return Problem("a group of keys is needed here", shown(value), allowed, todo, where)
     tag = (_TAG.findall(str(context.get("tag", ""))) or [""])[0]
     what = f"unknown type '{shown(tag)}'" if tag else "the key 'type' is missing"
-    todo = suggestion(tag, types) if tag else "add 'type'"
+    todo = meant_type(tag, types) if tag else "add 'type'"
     return Problem(what, shown(tag), one_of(types), todo, where)
 
 
+def meant_type(tag: object, types: Sequence[str]) -> str:
+    """The type that a word of the workshop stands for, or the one that is spelt nearly so."""
+    meant = _COMMON.get(str(tag).lower())
+    return f"did you mean '{meant}'?" if meant in types else suggestion(tag, types)
+
+
+_COMMON: dict[str, str] = {
+    **dict.fromkeys(("pole", "post", "bar", "rod"), "cylinder"),
+    **dict.fromkeys(("wall", "barrier", "ground", "floor"), "plane"),
+    **dict.fromkeys(("ball", "headform"), "sphere"),
+    **dict.fromkeys(("pipe", "round_tube", "chs"), "circular_tube"),
+    **dict.fromkeys(("box", "rhs"), "rectangular_tube"),
+    "shs": "square_tube",
+}
+"""Types by other words for what they are."""
+_LISTING: dict[str, int] = {
+    "extra_forbidden": 1,
+    "model_type": 0,
+    "model_attributes_type": 0,
+}
+"""Refusals that list the keys of a part, and how far the refused place is below it."""
 _NEEDED = "is needed here"
 _WORDS: dict[str, tuple[str, str]] = {
     "model_type": ("a group of keys is needed here", "keys with values"),

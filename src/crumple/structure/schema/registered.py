@@ -23,7 +23,7 @@ from pydantic import (
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from crumple.registry.keys import MISSING, Key
-from crumple.structure.schema.problems import meant_by_key, one_of, shown, suggestion
+from crumple.structure.schema.problems import meant_by_key, meant_type, one_of, shown
 from crumple.structure.schema.spec import Spec
 
 
@@ -144,7 +144,7 @@ def _unknown_type(part: type[Registered], kind: object) -> tuple[str, str, str, 
     """Problem, what is allowed, what to do, and what came."""
     types = [*part.types(), *part.other_types()]
     what = f"unknown {part.tag} '{shown(kind)}'" if kind else f"the key '{part.tag}' is missing"
-    return what, one_of(types), suggestion(kind, types), shown(kind) if kind else ""
+    return what, one_of(types), meant_type(kind, types), shown(kind) if kind else ""
 
 
 def _belongs(part: type[Registered], name: str) -> str:
