@@ -114,9 +114,8 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
         (*notes(linkage, with_drives_released(structure, linkage)), infinitesimal(linkage), stuck, *loose),
     )
     yield from driven_assumptions(structure)
-    yield from filter(
-        None, (rigid_for_long(analysis.structure, analysis.multibody, analysis.time_in_motion),)
-    )
+    if rigid := rigid_for_long(analysis.structure, analysis.multibody, analysis.time_in_motion):
+        yield rigid
     yield from corners_without_law(structure)
     yield from loose_drives(structure, linkage)
     yield from (f"Caution: {caution.text}" for caution in struck_cautions(structure))

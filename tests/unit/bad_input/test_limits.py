@@ -147,3 +147,12 @@ def test_walls_too_thin_for_the_formula_are_refused_with_their_section(tmp_path,
     (tmp_path / "thick.yaml").write_text(text.replace(f"{thickness} mm", allowed), encoding="utf-8")
     assert check(tmp_path / "thick.yaml") == []
     assert "thicker walls" in problem.todo
+
+
+def test_walls_too_thin_are_refused_once_for_automatic_hinges_in_space(tmp_path) -> None:
+    text = chain(2, "").replace(", }", "}").replace("thickness: 2 mm", "thickness: 0.02 mm")
+    text = text.replace("n2: [0.6 m, 0 m, 0 m]", "n2: [0.6 m, 0.2 m, 0.3 m]") + "\nhinges: auto\n"
+    (tmp_path / "thin.yaml").write_text(text, encoding="utf-8")
+    (problem,) = check(tmp_path / "thin.yaml")
+    assert problem.where == "sections.tube.thickness"
+    assert problem.came == "0.02 mm with a largest side of 40 mm"

@@ -109,7 +109,8 @@ def _of_members(source: LoadedInput) -> Iterator[str]:
     given = source.analysis
     settings = given.multibody, given.time_in_motion
     yield from corners_without_law(with_elastic_members(given.structure, *settings))
-    yield from filter(None, (rigid_for_long(given.structure, *settings),))
+    if rigid := rigid_for_long(given.structure, *settings):
+        yield rigid
 
 
 def _of_store(texts: Sequence[str], file: Path) -> str:
