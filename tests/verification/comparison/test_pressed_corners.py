@@ -12,7 +12,7 @@ Crushed corners. Two pieces of 1.3 sides between a clamp and a guide that moves 
 over shortening, law over shells. No constant is fitted to it: the law is that of a corner that turns under
 compression, at the moment zero.
 
-Kind: independent calculation; invariant.  Source: run here.
+Kind: independent calculation; invariant.  Source: run here; derived here.
 """
 
 from __future__ import annotations
