@@ -36,8 +36,8 @@ struct Surface {
     bool axisymmetric = false;
     double arm = 0;              // tension flange: distance of the flange from the centroid [m]
     std::vector<ArmGain> gains;  // tension flange: compression moves the axis of the fold outwards
-    double shortened_turn = 0;   // tension flange: rotation that a shortening counts as in the softening of the moment [rad/m]
     hinge::Curve growth;         // tension flange: share of `arm` over the largest plastic rotation so far; empty: 1
+    double shortened_turn = 0;   // tension flange: rotation that a shortening counts as in the softening of the moment [rad/m]
     double alone[most_components] = {};        // section: g of the capacity of every component alone
 };
 
