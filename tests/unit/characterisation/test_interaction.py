@@ -58,6 +58,22 @@ def test_a_fold_that_interacts_like_its_walls_has_no_error_of_that_coupling():
     assert "coupling section work +0% to 10 deg, +0% to 30 deg" in found["axial_tension"]
 
 
+def test_a_fold_about_a_diagonal_that_softens_as_a_hinge_does_has_no_error():
+    """A square tube turned about both axes alike: the other rotation counts half, as in an ellipsoid."""
+    outline = plastic_interaction(TUBE, STEEL).moment_curve()
+    wider = float((outline / np.abs(outline).max(axis=0)).sum(axis=1).max()) * math.sqrt(0.5)
+    plain = softening()
+    slower = np.interp(math.sqrt((1.0 + 0.5**2) / 2.0) * wider * ROTATION, ROTATION, plain.moment)
+    steps = np.diff(ROTATION) * (slower[1:] + slower[:-1]) / 2.0
+    oblique = LawCurve(ROTATION, wider * slower, wider * np.concatenate([[0.0], np.cumsum(steps)]))
+
+    def solved(model: Combined) -> LawCurve:
+        return oblique if model.angle == pytest.approx(math.pi / 4.0) else plain
+
+    found = interaction_errors(Bending(TUBE, STEEL), solved)
+    assert found["oblique_45_deg"] == "coupling section work +0% to 10 deg, +0% to 30 deg"
+
+
 def test_round_sections_have_no_oblique_axis():
     found = interaction_errors(Bending(CircularTube(0.05, 0.0015), STEEL), lambda model: softening())
     assert set(found) == {"axial_compression", "axial_tension", "axial_fixed_ratio"}
