@@ -14,7 +14,6 @@ from tests.support.multibody.hinge_rig import (
     ROTATION,
     SECTION,
     SET_VALUED,
-    TENSION_FLANGE,
     TORSION,
     component,
     hinge,
@@ -106,29 +105,3 @@ def test_weights_that_are_refused(weight):
     parts = [component(ABOUT_Y, FALLING), component(ABOUT_Z, FALLING)]
     with pytest.raises(ValueError, match="softens by a positive part"):
         _kernels.spatial.HingeElement(hinge(*parts, coupling=ELLIPSOID, cross_softening=weight))
-
-
-SLIPPING = {"arm": 0.5, "coupling": TENSION_FLANGE}
-
-
-@pytest.mark.parametrize(("turn", "left"), [(0.0, 100.0), (2.0, 60.0)])
-def test_a_corner_that_shortens_loses_moment(turn, left):
-    """Shortened by 0.2 m, which counts as 0.4 rad: the moment is that after such a rotation."""
-    element = rig(
-        hinge(component(0, 1e4), component(ABOUT_Y, FALLING), **SLIPPING, shortened_turn=turn),
-    )
-    for _ in range(200):
-        element.led(H, [-1.0, 0.0])
-    # about the tension flange the moment is all that is left without axial force
-    element.led(H, [0.0, 1e-3])
-    assert element.state["capacity"][1] == pytest.approx(left, rel=5e-3)
-
-
-def test_lengthening_costs_no_moment():
-    element = rig(hinge(component(0, 1e4), component(ABOUT_Y, FALLING), **SLIPPING, shortened_turn=2.0))
-    for _ in range(200):
-        element.led(H, [1.0, 0.0])
-    element.led(H, [0.0, 1e-3])
-    assert element.state["capacity"][1] == pytest.approx(100.0)
-    with pytest.raises(ValueError, match="no negative rotation"):
-        rig(hinge(component(0, 1e4), component(ABOUT_Y, FALLING), **SLIPPING, shortened_turn=-1.0))
