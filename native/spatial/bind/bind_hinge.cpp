@@ -167,6 +167,8 @@ SpatialHinge make_hinge(const nb::dict& d) {
     h.round_shear = entry<bool>(d, "round_shear");
     h.cross_softening = entry<double>(d, "cross_softening");
     require(h.cross_softening > 0 && h.cross_softening <= 1, "a rotation about the other axis softens by a positive part of its measure, at most all");
+    h.edge_relief = entry<double>(d, "edge_relief");
+    require(h.edge_relief >= 0 && h.edge_relief < 1, "a fold about both axes is relieved of a part of its measure, of none at least");
     for (const Component& c : h.components) {
         const bool drives = !c.shift.values().empty() || !c.worn.values().empty();
         require(c.driver < size(h) && (c.driver >= 0) == drives, "a share depends on the rotation about a component of its hinge");

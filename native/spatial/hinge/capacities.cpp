@@ -68,19 +68,26 @@ double capacity_over(const hinge::Curve& curve, double a, double b, bool at_end,
 bool bends(const SpatialHinge& hinge, int k) { return hinge.components[static_cast<size_t>(k)].freedom > 3; }
 
 // Share of the measure of a rotation e that softens component k.  The moment about y softens by rotation about y, and by a part of that
-// about z, which folds the other pair of walls; parts add up as in an ellipsoid.
+// about z, which folds the other pair of walls; parts add up as in an ellipsoid.  Bent about a diagonal, an edge is compressed, which
+// resists longer than a wall.
 double own_share(const SpatialHinge& hinge, int k, const double* e) {
     if (hinge.cross_softening == 1 || !bends(hinge, k)) return 1;
-    double left[most], all = 0, own = 0;
+    double left[most], bent = 0, apart = 0, other = 0, own = 0;
     beyond_spread(hinge, e, left);
     for (int j = 0; j < size(hinge); j++) {
         const int sense = left[j] < 0 ? 1 : 0;
         const double part = weight_of(hinge, j, sense) * left[j], of_other = hinge.cross_softening * weight_of(hinge, k, sense) * left[j];
-        const double counted = j != k && bends(hinge, j) ? of_other : part;
-        all += part * part;
-        own += counted * counted;
+        if (!bends(hinge, j)) {
+            other += part * part;
+            continue;
+        }
+        bent += part * part;
+        apart += (j == k ? 1 : -1) * part * part;
+        own += j == k ? part * part : of_other * of_other;
     }
-    return all > 0 ? std::sqrt(own / all) : 1;
+    if (bent + other == 0) return 1;
+    const double uneven = bent > 0 ? apart / bent : 1, even = 1 - uneven * uneven, relieved = 1 - hinge.edge_relief * even * even;
+    return std::sqrt((relieved * relieved * own + other) / (bent + other));
 }
 
 // What softens a component before and after a flow, and the share of the flow before it exceeds the largest value so far.

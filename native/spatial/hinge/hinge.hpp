@@ -14,7 +14,7 @@
 // Softening.  One component: its own plastic rotation, largest so far in each sense.  Coupled components: one measure s of the plastic
 // rotation vector e, the work D_0(e) of a proportional rotation to e at the initial capacities.  Each curve is evaluated at s/C_k(0),
 // the rotation about its own axis that would dissipate that work.  A component can have a weight in both (`Component::softens`); the moments
-// of tubes of two pairs of walls soften less by rotation about the other axis (`SpatialHinge::cross_softening`).  `peak`: the largest s so far, both senses together; `rotation`:
+// of tubes of two pairs of walls soften less by rotation about the other axis (`SpatialHinge::cross_softening`), and less if they bend about both (`edge_relief`).  `peak`: the largest s so far, both senses together; `rotation`:
 // the present s; `accumulated`: the sum of s over all increments of e.  What spreads over the member (`Component::spread`) is left out of e.
 #pragma once
 
@@ -53,6 +53,7 @@ struct SpatialHinge {
     double shear_loss[2] = {0, 0};  // share of the torque that a shear force along local y, z takes from the walls [1/N]
     bool round_shear = false;       // whether the walls see the resultant of both forces
     double cross_softening = 1;     // weight of a rotation about y in what softens the moment about z, and of one about z in that about y
+    double edge_relief = 0;         // share of the measure that does not soften the moments about y and z if both do the same work
 };
 
 // State of one hinge.  Used of each component: plastic rotation, moment (mean over the last step; elastic-plastic: at its end),

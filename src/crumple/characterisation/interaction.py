@@ -17,9 +17,9 @@ from crumple.characterisation.bending import Bending
 from crumple.characterisation.combined import Combined, FixedRatio
 from crumple.characterisation.coupling.errors_of_work import errors_of_work
 from crumple.characterisation.curve import LawCurve
+from crumple.hinge.bending.edge_fold import CROSSED, EVENNESS, edge_relief
 from crumple.numeric.arrays import Floats
 from crumple.section import RectangularTube, plastic_interaction
-from crumple.structure.hinges.spatial_hinges import CROSSED
 
 SHARE = 0.2
 """Axial force over the squash force."""
@@ -119,8 +119,11 @@ def _oblique(model: Combined, about: tuple[LawCurve, LawCurve], at: Floats) -> F
     first = np.array([float(_capacity(one, np.zeros(1))[0]) for one in about])
     work = first * turn
     measure = (shares * work).sum(axis=1).max() * at
-    crossed = CROSSED if isinstance(model.section, RectangularTube) else 1.0
-    own = np.hypot(work, crossed * first * turn[::-1]) if crossed < 1.0 else np.hypot(*work)
+    own = np.hypot(*work)
+    if isinstance(model.section, RectangularTube):
+        even = 2.0 * float(np.prod(work)) / own**2
+        relieved = 1.0 - edge_relief(model.section) * even**EVENNESS
+        own = relieved * np.hypot(work, CROSSED * first * turn[::-1])
     softened = measure[:, None] * own / np.hypot(*work) / first
     capacity = np.stack([_capacity(one, softened[:, k]) for k, one in enumerate(about)], axis=1)
     return np.asarray((shares[None] * (capacity * turn)[:, None]).sum(axis=2).max(axis=1))

@@ -54,7 +54,13 @@ def component(freedom, positive, negative=None, **more):
 def hinge(*components, form=SET_VALUED, softening=PEAK, coupling=NONE, **more):
     """Constants of a hinge as the kernel takes them."""
     plain = {"rows": [], "power": 2.0, "torque_power": 2.0, "torsion": -1, "fracture": math.inf, **NO_ARM}
-    plain |= {"shear_loss": [0.0, 0.0], "round_shear": False, "axisymmetric": False, "cross_softening": 1.0}
+    plain |= {
+        "shear_loss": [0.0, 0.0],
+        "round_shear": False,
+        "axisymmetric": False,
+        "cross_softening": 1.0,
+        "edge_relief": 0.0,
+    }
     plain |= {"form": form, "softening": softening, "coupling": coupling, "components": list(components)}
     return plain | more
 

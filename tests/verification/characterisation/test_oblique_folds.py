@@ -3,12 +3,10 @@
 Sub-models of docs/theory/characterisation.md (two halves turned against each other, 4.5 elements along half a
 fold), solved once by this program: moment [N m] about each axis alone and about an axis at 45 degrees, over
 plastic rotation, and the largest moment about z after 20 degrees about y.  The hinge has the laws about both
-axes alone, the interaction of the walls, and the weight with which rotation about one axis softens the moment
-about the other.  That weight was chosen by the moments after a first turn, mostly of the tube 50x50x1.5 mm;
-folds at 45 degrees had no part in it.
-
-With all of the rotation (weight 1) the work up to 20 degrees at 45 degrees is 16, 13, 7 and 28 % less than in
-shells, with this weight 11, 8, 4 and 22 %.  Thin square tubes carry more than any weight gives.
+axes alone, the interaction of the walls, the weight with which rotation about one axis softens the moment
+about the other, and what the compressed edge of a fold about a diagonal does not lose.  The weight was chosen
+by the moments after a first turn, mostly of the tube 50x50x1.5 mm; the edge was fitted to eleven other tubes,
+none of which is here.  Square tubes of 80, 70 and 60x1.2 mm were solved when it was fixed.
 
 Kind: independent calculation.  Source: run here.
 """
@@ -30,13 +28,19 @@ S60T = [2886, 2911, 2957, 2968, 2971, 2962, 2945, 2913, 2852, 2709, 2573, 2415, 
 S50 = [2444, 2406, 2284, 2107, 1932, 1694, 1522, 1393, 1289, 1135, 1020, 911, 827, 759, 704]
 R84_Y = [2228, 2203, 2142, 2082, 2009, 1860, 1723, 1602, 1493, 1316, 1184, 1054, 950, 866, 798]
 R84_Z = [3313, 3409, 3602, 3574, 3316, 2917, 2657, 2445, 2272, 1988, 1762, 1557, 1426, 1328, 1249]
+S80 = [9692, 9631, 9322, 8720, 8065, 7072, 6347, 5799, 5369, 4719, 4244, 3792, 3442, 3163, 2935]
+S70 = [3144, 3127, 3035, 2874, 2735, 2514, 2331, 2167, 2025, 1782, 1588, 1395, 1246, 1138, 1064]
+S60A = [1634, 1521, 1273, 1119, 1013, 870, 771, 697, 637, 548, 485, 428, 386, 354, 329]
 # width, depth, wall [m]; yield stress [MPa]; laws about y and z; work at 45 degrees up to 10 and 20 degrees
 # [J]; largest moment about z after 20 degrees about y [N m], nan: not solved; what is allowed of the work
 TUBES = {
-    "60x60x2.5 mm": ((0.06, 0.06, 0.0025), 420, (S60, S60), (888.0, 1588.9), 3539.0, 0.15),
+    "60x60x2.5 mm": ((0.06, 0.06, 0.0025), 420, (S60, S60), (888.0, 1588.9), 3539.0, 0.10),
     "80x50x1.6 mm": ((0.08, 0.05, 0.0016), 300, (R84_Y, R84_Z), (392.3, 676.3), 1816.0, 0.10),
     "50x50x3 mm": ((0.05, 0.05, 0.003), 300, (S60T, S60T), (486.1, 918.5), math.nan, 0.05),
-    "50x50x1.5 mm": ((0.05, 0.05, 0.0015), 488, (S50, S50), (312.2, 553.6), 1030.0, 0.25),
+    "50x50x1.5 mm": ((0.05, 0.05, 0.0015), 488, (S50, S50), (312.2, 553.6), 1030.0, 0.10),
+    "80x80x2.5 mm": ((0.08, 0.08, 0.0025), 450, (S80, S80), (1266.9, 2247.6), math.nan, 0.10),
+    "70x70x1.6 mm": ((0.07, 0.07, 0.0016), 280, (S70, S70), (475.2, 828.6), math.nan, 0.10),
+    "60x60x1.2 mm": ((0.06, 0.06, 0.0012), 300, (S60A, S60A), (186.5, 303.7), math.nan, 0.10),
 }
 
 
@@ -68,9 +72,8 @@ def made(name, **changed):
         "power": surface.power,
         "torque_power": surface.torque_power,
     }
-    return rig(
-        hinge(*parts, coupling=SECTION, **keys, **{"cross_softening": record.cross_softening} | changed)
-    )
+    softens = {"cross_softening": record.cross_softening, "edge_relief": record.edge_relief}
+    return rig(hinge(*parts, coupling=SECTION, **keys, **softens | changed))
 
 
 def work(element, largest):
@@ -85,10 +88,11 @@ def test_work_about_an_oblique_axis(name, record_figure):
     *_, shells, _, allowed = TUBES[name]
     for degrees, expected in zip((10.0, 20.0), shells, strict=True):
         found = work(made(name), math.radians(degrees))
-        before = work(made(name, cross_softening=1.0), math.radians(degrees))
+        before = work(made(name, edge_relief=0.0), math.radians(degrees))
+        most = work(made(name, cross_softening=1.0), math.radians(degrees))
         what = f"work up to {degrees:g} deg at 45 deg, {name}"
         record_figure(what, found, expected, allowed, "J", relative=True)
-        assert before < found
+        assert most < before < found
 
 
 @pytest.mark.parametrize("name", [name for name, tube in TUBES.items() if not math.isnan(tube[4])])
@@ -102,7 +106,7 @@ def test_moment_about_the_other_axis_after_a_fold(name, record_figure):
 
 
 def test_a_tube_thrown_along_a_diagonal_turns_less_than_by_the_whole_measure(monkeypatch):
-    """The solver has the weight: a clamped tube with 20 kg at its tip, thrown along a diagonal."""
+    """The solver has weight and edge: a clamped tube with 20 kg at its tip, thrown along a diagonal."""
 
     def turned():
         metal = {"youngs_modulus": 210e9, "poissons_ratio": 0.3, "density": 7850.0, "yield_stress": 420e6}
@@ -120,6 +124,8 @@ def test_a_tube_thrown_along_a_diagonal_turns_less_than_by_the_whole_measure(mon
         result = solve(Analysis(structure=structure, duration=0.05, multibody=settings), "multibody")
         return max(one.rotation_max for one in result.hinges.values())
 
+    relieved = turned()
+    monkeypatch.setattr(spatial_hinges, "edge_relief", lambda section: 0.0)
     half = turned()
     monkeypatch.setattr(spatial_hinges, "CROSSED", 1.0)
-    assert math.radians(5.0) < half < 0.97 * turned()
+    assert math.radians(5.0) < relieved < 0.98 * half < 0.96 * turned()

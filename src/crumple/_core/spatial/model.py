@@ -183,7 +183,7 @@ class SpatialHinge:
 
     Codes of form and softening variable are those of `crumple._core.planar.simulation.TreeHinge`.
     It opens for good at the plastic rotation `fracture` [rad].  `shear_loss`, `round_shear`,
-    `cross_softening`: see `SpatialHingeRecord`.
+    `cross_softening`, `edge_relief`: see `SpatialHingeRecord`.
     """
 
     joint: int
@@ -195,6 +195,7 @@ class SpatialHinge:
     shear_loss: tuple[float, float] = (0.0, 0.0)
     round_shear: bool = False
     cross_softening: float = 1.0
+    edge_relief: float = 0.0
 
     @cached_property
     def constants(self) -> dict[str, Any]:
@@ -208,6 +209,7 @@ class SpatialHinge:
             "shear_loss": list(self.shear_loss),
             "round_shear": self.round_shear,
             "cross_softening": self.cross_softening,
+            "edge_relief": self.edge_relief,
             "components": [component.component() for component in self.components],
             "coupling": int(surface.coupling),
             "rows": as_list(np.asarray(surface.rows, float).reshape(-1)),

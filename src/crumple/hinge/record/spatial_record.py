@@ -199,6 +199,9 @@ class SpatialHingeRecord:
         Whether the walls of a round tube see the resultant of both forces; else their parts add up.
     cross_softening
         Weight of a rotation about one bending axis in what softens the moment about the other; 1: all of it.
+    edge_relief
+        Share of the measure that does not soften the bending moments if both do the same work, see
+        `crumple.hinge.bending.edge_fold`; without effect if `cross_softening` is 1.
     """
 
     components: tuple[HingeComponent, ...]
@@ -207,6 +210,7 @@ class SpatialHingeRecord:
     shear_loss: tuple[float, float] = (0.0, 0.0)
     round_shear: bool = False
     cross_softening: float = 1.0
+    edge_relief: float = 0.0
 
     @property
     def freedoms(self) -> tuple[Freedom, ...]:

@@ -143,6 +143,7 @@ def _hinge(joint: int, connection: Connection) -> SpatialHinge:
         spatial.shear_loss,
         spatial.round_shear,
         spatial.cross_softening,
+        spatial.edge_relief,
     )
 
 

@@ -19,6 +19,7 @@ from crumple.hinge import (
 )
 from crumple.hinge.axial.axial_collapse import AxialCollapse
 from crumple.hinge.axial.hardened_peak import strain_at
+from crumple.hinge.bending.edge_fold import CROSSED, edge_relief
 from crumple.hinge.measured.stored import StoredLaw
 from crumple.hinge.measured.stored_crushing import StoredCrushing
 from crumple.hinge.record.record import Envelope, Form
@@ -51,8 +52,6 @@ FLAT, ROUND_FLAT = 0.65, 0.5
 """Power of the share of the moment of a fold that is left, in the share of its torque; of round tubes [-]."""
 TWISTED = 0.4
 """Share of the work of twist that softens a fold of metal that hardens [-]: its walls fold late in shear."""
-CROSSED = 0.5
-"""Weight of a rotation about one axis of a rectangular tube where it softens the moment about the other."""
 APART = ("none", "tension-flange")
 """Couplings whose components soften apart."""
 KEPT = 64
@@ -125,7 +124,7 @@ def spatial_hinge_record(
         fracture=math.inf if keys.fracture is None else keys.fracture,
     )
     if fitted and len(bending) > 1 and isinstance(section, RectangularTube):
-        record = replace(record, cross_softening=CROSSED)
+        record = replace(record, cross_softening=CROSSED, edge_relief=edge_relief(section))
     return beside_shear(record, section, material)
 
 
