@@ -31,7 +31,7 @@ from crumple.structure.geometry import NARROWEST, Frame
 from crumple.structure.keys.obstacles import CylinderObstacle, Obstacle, PlaneObstacle, SphereObstacle, gap
 from crumple.structure.parts import StructureParts
 
-PLACES = np.linspace(0.0, 1.0, 11)
+PLACES = np.linspace(0.0, 1.0, 41)
 """Where on a member the distance from an obstacle is taken, over its length: both ends are among them."""
 TIMES = np.logspace(-5.0, 4.0, 91)
 """Times at which a prescribed motion is looked at for its direction [s]: from impacts to slow pushes."""

@@ -8,8 +8,10 @@ walls carry no more than their yield.  A fold takes the work P_m d whatever its 
     P = P_0 to 0.95 P_0        0 <= u < u_0 = x^2 d,     linearly
     P = 0.95 P_0 sqrt(u_0/u)   u_0 <= u < d,             x such that the mean over d is P_m
     P = P_m                    d <= u < S;  from 0.95 x P_0 linearly, over half of d - u_0 about d
-    stop at u = S
+    P = P_m (1 + k (u - S)/l)  S <= u < 0.9 l, stop at u = 0.9 l
 
+Folds close one after the other from S on, until a tenth of the length is left, a solid block; k = 10 of flat
+walls and 16 of round ones are those of tubes in shells.  Where the length is not known the stop is at S.
 Further folds make the force swing about P_m; that is left out.  Without H the force falls linearly over 5 %
 of the stroke, and d is the stroke.  In tension the walls yield.  Limits: P_0 = P_m is a constant force.
 Metal that hardens yields along a length l_h before it folds, in compression, or necks, in tension: the force
@@ -43,6 +45,10 @@ from crumple.units import format_quantity
 CHOSEN = Source("none", Trust.ASSUMED, "peak, mean and stroke are the user's choice")
 FIRST_FALL = 0.05
 """Share of the stroke over which the peak falls where no fold length is known."""
+CLOSING, ROUND_CLOSING = 10.0, 16.0
+"""Rise of the force of closing folds over the mean force, for a shortening over the length [-]."""
+SOLID = 0.9
+"""Shortening over the length at which they are solid."""
 PIECES = 8
 """Straight pieces of P_0 sqrt(u_0/u)."""
 END = 0.95
@@ -62,7 +68,7 @@ class AxialCollapse:
     peak, mean
         P_0 and P_m [N].
     stroke
-        S [m]; inf: never closed, the mean is held.
+        S [m], from which on the folds close; inf: never, the mean is held.
     tension
         Force in tension [N].
     points
@@ -172,13 +178,25 @@ class AxialCollapse:
             tension=tension,
             fold=None if half is None else 2.0 * half * law.effective_stroke,
             closed_stiffness=closed_stiffness,
-        )
+        )._closing(length, ROUND_CLOSING if law.name == "circular" else CLOSING)
         rate = None
         if law.rate is not None:
             rate = HingeRate(law.rate.metal.D / law.rate.shape, law.rate.metal.q)
         doubts = (*law.validity.warnings, *_doubts(law, length))
         basis = Validity(math.inf, law.validity.basis, doubts, law.validity.uncertainty)
         return replace(made, rate=rate, source=law.source, validity=basis, crushing=law.title)
+
+    def _closing(self, length: float, slope: float) -> AxialCollapse:
+        """The same whose folds close along what is left of a length [m] before they are solid."""
+        solid = SOLID * length
+        if solid <= self.stroke:
+            return self
+        at, force = self.points
+        start = max(at[-1], self.stroke)
+        flat = (start,) if start > at[-1] else ()
+        closed = force[-1] + slope * self.mean * (solid - start) / length
+        points = ((*at, *flat, solid), (*force, *(force[-1] for _ in flat), closed))
+        return replace(self, points=points, stop=self.stop and replace(self.stop, rotation=solid))
 
     def hardening(
         self, material: Material, strain: float, length: float, *, neck: bool = True

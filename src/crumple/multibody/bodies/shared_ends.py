@@ -6,42 +6,52 @@ between them is not determined, and which of them slides is decided by rounding.
 depend on which end of a member the input names first: a ball that turns with one piece rubs otherwise than
 one that turns with the other.  Balls beside the axis of a member, of a flat section, part when a hinge turns,
 but not at an elastic joint, which hardly does.
+
+A plane does not meet the cuts within a member that folds along its axis towards it: there the walls fold in
+front of it until they are solid, and then what is behind them carries on.
 """
 
 from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 
 import numpy as np
 
 from crumple._core.spatial.model import SpatialCapsule
 from crumple.multibody.bodies.linkage import GROUND, Connection, Linkage
 from crumple.numeric.arrays import Floats
+from crumple.structure import Structure
 
 SAME = 1e-7
 """Distance [m] below which places are the same."""
 FIRST, SECOND, BOTH = 1, 2, 3
+FACING = math.cos(math.radians(30.0))
+"""Cosine of the angle between a member's axis and the normal of a plane up to which it folds towards it."""
 ROTATIONS = 3
 """First of the freedoms that are rotations."""
 Place = tuple[int, int, int]
 
 
 def ends_met(
-    together: Mapping[Place, Mapping[int, int]], capsules: Sequence[SpatialCapsule], touching: tuple[int, ...]
+    together: Mapping[Place, Mapping[int, int]],
+    capsules: Sequence[SpatialCapsule],
+    touching: tuple[int, ...],
+    covered: Set[tuple[int, int]] = frozenset(),
 ) -> tuple[int, ...]:
     """Ends of capsules that an obstacle meets: `FIRST`, `SECOND`, `BOTH` or 0, for each of `touching`.
 
-    Of ends that stay together, by `bodies_together`, the largest counts, of equal ones that of the longest
-    capsule, of equally long ones the first.
+    None of those `covered`, by capsule and end.  Of ends that stay together, by `bodies_together`, the
+    largest counts, of equal ones that of the longest capsule, of equally long ones the first.
     """
     at: dict[Place, list[tuple[float, float, int, int]]] = defaultdict(list)
     for k, index in enumerate(touching):
         capsule = capsules[index]
         length = SAME * round(math.dist(capsule.first, capsule.second) / SAME)
         for side, end in ((FIRST, capsule.first), (SECOND, capsule.second)):
-            at[_place(end)].append((-capsule.radius, -length, k, side))
+            if (index, side) not in covered:
+                at[_place(end)].append((-capsule.radius, -length, k, side))
     met = [0] * len(touching)
     for place, ends in at.items():
         joined = together.get(place, {})
@@ -53,6 +63,38 @@ def ends_met(
                 seen.add(group)
                 met[k] |= side
     return tuple(met)
+
+
+def covered_by_folds(
+    structure: Structure,
+    linkage: Linkage,
+    capsules: Sequence[SpatialCapsule],
+    owners: Sequence[str],
+    normal: Floats,
+) -> Set[tuple[int, int]]:
+    """Ends of capsules at the cuts of members that fold towards a plane, by capsule and end.
+
+    Parameters
+    ----------
+    structure, linkage
+        The structure, its bodies and connections.
+    capsules, owners
+        Capsules, and the member of each of the first of them.
+    normal
+        Of the plane, (3,).
+    """
+    folding = {c.hinge.member for c in linkage.connections if c.hinge is not None and _folds(linkage, c)}
+    at: dict[str, list[tuple[float, int, int]]] = defaultdict(list)
+    for k, member in enumerate(owners):
+        frame = structure.frame_of(member)
+        if member in folding and abs(frame.x @ normal) > FACING:
+            for side, end in ((FIRST, capsules[k].first), (SECOND, capsules[k].second)):
+                at[member].append((float(frame.x @ (end - frame.origin)), k, side))
+    found = set()
+    for places in at.values():
+        low, high = min(places)[0] + SAME, max(places)[0] - SAME
+        found |= {(k, side) for station, k, side in places if low < station < high}
+    return found
 
 
 def bodies_together(

@@ -100,10 +100,21 @@ def _nearest_is_joint(structure: StructureParts, obstacle: Obstacle) -> bool:
     names = [name for name in obstacle.members or structure.members if structure.is_whole(name)]
     if not names:
         return False
+    ends = nearest_ends(structure, obstacle, names)
+    return any(joint_reach(structure, name, node) > 0.0 for name, node in ends)
+
+
+def nearest_ends(structure: StructureParts, obstacle: Obstacle, names: list[str]) -> list[tuple[str, str]]:
+    """Members nearest to an obstacle at a node of theirs, or within its rigid joint; with the node."""
     gaps = axis_gaps(structure, obstacle, names)
-    nearest = np.argwhere(gaps <= gaps.min() + LEAST)
-    ends = {(names[which], int(PLACES[place])) for which, place in nearest if PLACES[place] in (0.0, 1.0)}
-    return any(joint_reach(structure, name, structure.members[name].nodes[end]) > 0.0 for name, end in ends)
+    found = []
+    for which, place in np.argwhere(gaps <= gaps.min() + LEAST):
+        name, length = names[which], structure.frame_of(names[which]).length
+        shares = (PLACES[place], 1.0 - PLACES[place])
+        for node, share in zip(structure.members[name].nodes, shares, strict=True):
+            if share * length <= joint_reach(structure, name, node):
+                found.append((name, node))
+    return found
 
 
 def _half_depth(structure: StructureParts, member: str, direction: Floats) -> float:

@@ -203,14 +203,19 @@ def test_axial_collapse_keeps_the_energy_of_its_mean():
     assert work == pytest.approx(crushing.mean_crushing_force * crushing.effective_stroke * 0.4, rel=1e-6)
     assert law.moment_capacity(np.zeros(1), -1)[0] == pytest.approx(crushing.peak_force)
     assert (law.moment_capacity(u, 1) == 150e3).all()
-    assert law.stop == Stop(law.stroke, 1e7)
+    # then the folds close until a tenth of the length is left
+    assert law.stop == Stop(0.9 * 0.4, 1e7)
+    at = np.array([law.stroke, 0.8 * 0.4, 0.9 * 0.4])
+    wanted = law.mean * (1.0 + 10.0 * (at - law.stroke) / 0.4)
+    np.testing.assert_allclose(law.moment_capacity(at, -1), wanted, rtol=1e-12)
 
 
 @pytest.mark.parametrize("name", ["square", "superfolding", "circular"])
 def test_every_fold_takes_the_same_work(name):
     crushing = build_axial_law(name, ROUND if name == "circular" else SQUARE, STEEL)
     law = AxialCollapse.of(crushing, 0.4, tension=150e3)
-    at, force = law.points
+    # without the corners of the folds that close
+    at, force = (part[:-2] for part in law.points)
     # the rise after the first fold has its end in the middle
     fold = 2.0 * crushing.half_fold_length * crushing.effective_stroke
     assert (at[-1] + at[-2]) / 2.0 == pytest.approx(fold)
@@ -222,15 +227,23 @@ def test_every_fold_takes_the_same_work(name):
     assert force[1] == pytest.approx(0.95 * law.peak)
     np.testing.assert_allclose(np.array(force[1:-1]) * np.sqrt(at[1:-1]), force[1] * math.sqrt(at[1]))
     assert force[-1] == law.mean
-    # a column of one fold at most never rises
+    # a column of one fold at most never rises before it closes
     short = AxialCollapse.of(crushing, crushing.half_fold_length, tension=150e3)
-    assert short.points[0][-1] == pytest.approx(short.stroke)
-    assert (np.diff(short.points[1]) <= 0.0).all()
+    assert short.points[0][-2] == pytest.approx(short.stroke)
+    assert (np.diff(short.points[1][:-1]) <= 0.0).all()
+    slope = 16.0 if name == "circular" else 10.0
+    closed = short.points[1][-2] + slope * short.mean * (0.9 - crushing.effective_stroke)
+    assert short.points[1][-1] == pytest.approx(closed)
 
 
 def test_axial_collapse_limits():
     constant = AxialCollapse.given(50e3, 50e3, 0.1)
     np.testing.assert_allclose(constant.moment_capacity(np.linspace(0, 1, 11), -1), 50e3)
+    assert AxialCollapse.given(60e3, 50e3, 0.1, closed_stiffness=1e6).stop == Stop(0.1, 1e6)
+    whole = build_axial_law("superfolding", SQUARE, STEEL, crush_distance="full")
+    full = AxialCollapse.of(whole, 0.4, tension=150e3, closed_stiffness=1e6)
+    assert full.stop == Stop(0.4, 1e6)
+    assert full.points[1][-1] == full.mean
     endless = AxialCollapse.given(50e3, 50e3, math.inf, closed_stiffness=1e6)
     assert endless.stop is None
     assert endless.kinks(-1) == ()

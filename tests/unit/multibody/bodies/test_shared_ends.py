@@ -1,5 +1,6 @@
 """Ends of capsules at one place: which of them an obstacle meets."""
 
+import math
 from collections import Counter
 
 import numpy as np
@@ -8,20 +9,31 @@ from tests.support.multibody.frames import member, structure
 
 from crumple.multibody.bodies.capsules import member_capsules, row_shifts
 from crumple.multibody.bodies.linkage import link
-from crumple.multibody.bodies.shared_ends import BOTH, FIRST, SECOND, bodies_together, ends_met
+from crumple.multibody.bodies.shared_ends import (
+    BOTH,
+    FIRST,
+    SECOND,
+    bodies_together,
+    covered_by_folds,
+    ends_met,
+)
 
 SQUARE = {"type": "square_tube", "side": 0.05, "thickness": 0.002}
 THIN = {"type": "square_tube", "side": 0.03, "thickness": 0.002}
 LINE = {"a": (0.0, 0.0, 0.0), "b": (0.5, 0.0, 0.0), "c": (0.5, 0.5, 0.0)}
 
 
-def met(whole, touching=None, *, plane=True):
-    """How often an obstacle meets every place [mm], and the capsules with the ends it meets."""
+def met(whole, touching=None, *, plane=True, normal=None):
+    """How often an obstacle meets every place [mm], and the capsules with the ends it meets.
+
+    `normal`: of a plane towards which members may fold.
+    """
     linkage = link(whole)
-    capsules, _ = member_capsules(whole, linkage.pieces)
+    capsules, owners = member_capsules(whole, linkage.pieces)
+    covered = () if normal is None else covered_by_folds(whole, linkage, capsules, owners, np.array(normal))
     chosen = tuple(range(len(capsules))) if touching is None else touching
     rows = {name: row_shifts(whole, name) for name in whole.members}
-    ends = ends_met(bodies_together(linkage, rows, folding=plane), capsules, chosen)
+    ends = ends_met(bodies_together(linkage, rows, folding=plane), capsules, chosen, covered)
     places = Counter()
     for index, of in zip(chosen, ends, strict=True):
         for side, place in ((FIRST, capsules[index].first), (SECOND, capsules[index].second)):
@@ -92,6 +104,26 @@ def test_pieces_beside_a_fold_part_but_a_plane_meets_one(at, plane, count):
     whole = frame(hinges=(("h", at, {"axes": ("y", "z"), "axial": True}),))
     places, _, _ = met(whole, plane=plane)
     assert places[(round(1e3 * at), 0, 0)] == count
+
+
+def test_a_plane_meets_no_cut_within_a_member_that_folds_towards_it():
+    """The walls fold in front of the cuts of an elastic member, and what is behind it stops the plane."""
+
+    def places(normal, **hinge):
+        bar = member("a", "b", ("h", 0.2, hinge), elastic=4)
+        members = {"ab": bar, "bc": member("b", "c", section="other")}
+        sections = {"tube": SQUARE, "other": SQUARE}
+        whole = structure(nodes=LINE, members=members, sections=sections, supports={})
+        return {x for x, y, _ in met(whole, normal=normal)[0] if y == 0}
+
+    folds = {"axes": ("y", "z"), "axial": True}
+    beside = places((0.0, 0.0, 1.0), **folds)
+    assert {25, 200, 500} < beside
+    assert places((-1.0, 0.0, 0.0), **folds) == {25, 500}
+    assert places((-0.9, 0.0, math.sqrt(0.19)), **folds) == {25, 500}
+    assert places((-0.8, 0.0, 0.6), **folds) == beside
+    # one that keeps its length is met at its cuts
+    assert places((-1.0, 0.0, 0.0)) == places((0.0, 0.0, 1.0))
 
 
 @pytest.mark.parametrize("hinge", [0.2, 0.35])

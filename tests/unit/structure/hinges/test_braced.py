@@ -118,6 +118,19 @@ def test_a_pin_lets_a_triangle_turn_as_one_body_and_a_clamp_does_not():
     assert braced(frame(TRIANGLE, bars, supports=held)) == {"b-c"}
 
 
+def test_a_wishbone_is_braced_though_its_pivots_are_a_little_out_of_line():
+    def turned(degrees):
+        nodes = {"a": (0.0, 0.2, 0.0), "b": (0.0, -0.2, 0.0), "c": (0.35, 0.05, -0.05)}
+        tilt = np.radians(degrees)
+        nodes["b"] = (0.0, 0.2 - 0.4 * np.cos(tilt), 0.4 * np.sin(tilt))
+        pivots = {f"pivot_{node}": {"node": node, "fix": ["x", "y", "z", "rx", "rz"]} for node in "ab"}
+        return braced(frame(nodes, "a-c b-c", supports=pivots))
+
+    for degrees in (0.0, 0.014, 3.2, 12.0):
+        assert turned(degrees) == {"a-c", "b-c"}
+    assert turned(30.0) == set()
+
+
 def test_what_a_support_drives_can_move():
     driven = {"ram": {"node": "b", "motion": {"x": {"table": {"time": (0.0, 0.1), "value": (0.0, 0.1)}}}}}
     assert not braced(frame(FLAT, "a-b b-c c-d", "a d", supports=driven, initial_velocity=()))

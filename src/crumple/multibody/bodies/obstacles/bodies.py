@@ -7,15 +7,15 @@ they can touch of members is in `surface`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 
 from crumple._core.spatial.model import (
     ObstacleKind,
     SpatialBody,
-    SpatialCapsule,
     SpatialContact,
     SpatialDrive,
     SpatialJoint,
@@ -30,7 +30,7 @@ from crumple.multibody.bodies.linkage import GROUND, Linkage
 from crumple.multibody.bodies.obstacles.faces import Face, face_of
 from crumple.multibody.bodies.obstacles.motion import guided_or_driven
 from crumple.multibody.bodies.obstacles.sunk_walls import SunkWall, sunk_walls, with_walls
-from crumple.multibody.bodies.shared_ends import Place, bodies_together, ends_met
+from crumple.multibody.bodies.shared_ends import Place, bodies_together, covered_by_folds, ends_met
 from crumple.multibody.bodies.surface import Surface, surface_of
 from crumple.numeric.arrays import Floats
 from crumple.structure import (
@@ -124,7 +124,7 @@ def with_obstacles(
     rows = {name: shifts(structure, surface.edges, name) for name in structure.members}
     together = {plane: bodies_together(linkage, rows, folding=plane) for plane in (False, True)}
     added = _Added(model, light)
-    obstacles = _obstacles(structure, added, surface, together, stages)
+    obstacles = _obstacles(structure, linkage, added, surface, together, stages)
     contact = structure.member_contact
     pairs = SpatialContact()
     if contact is not None:
@@ -157,6 +157,7 @@ def with_obstacles(
 
 def _obstacles(
     structure: Structure,
+    linkage: Linkage,
     added: _Added,
     surface: Surface,
     together: Mapping[bool, Together],
@@ -173,7 +174,13 @@ def _obstacles(
     found = []
     for name, obstacle in structure.obstacles.items():
         mass = body = added.obstacle(name, obstacle, duration)
-        ends = together[isinstance(obstacle, PlaneObstacle)]
+        covered: Set[tuple[int, int]] = set()
+        if isinstance(obstacle, PlaneObstacle):
+            covered = covered_by_folds(
+                structure, linkage, surface.capsules, surface.members, _unit(obstacle.normal)
+            )
+        at = together[isinstance(obstacle, PlaneObstacle)]
+        ends = partial(ends_met, at, surface.capsules, covered=covered)
         allowed = set(structure.members if obstacle.members is None else obstacle.members)
         touching = {i: of for i, of in enumerate(surface.owners(name, obstacle)) if of & allowed}
         tubes = dented_tubes(structure, name) if fast else ()
@@ -182,9 +189,9 @@ def _obstacles(
             runs = (straight_run(structure, tube.member) for tube in tubes)
             dented = allowed if name in ends_on else {member for run in runs for member in run.stretches}
             rest = tuple(i for i, of in touching.items() if not of & dented)
-            added.behind[name] = _solid(obstacle, mass, rest, surface.capsules, ends)
+            added.behind[name] = _solid(obstacle, mass, rest, ends)
             touching = {i: of for i, of in touching.items() if of & dented}
-        found.append(_solid(obstacle, body, tuple(touching), surface.capsules, ends))
+        found.append(_solid(obstacle, body, tuple(touching), ends))
     return found
 
 
@@ -237,9 +244,9 @@ def _solid(
     obstacle: Obstacle,
     body: int,
     touching: tuple[int, ...],
-    capsules: tuple[SpatialCapsule, ...],
-    together: Together,
+    ends: Callable[[tuple[int, ...]], tuple[int, ...]],
 ) -> SpatialObstacle:
+    """Solid of an obstacle that touches some capsules, and the ends of these that it meets."""
     place = np.asarray(obstacle.point, float)
     plain = SpatialObstacle(
         ObstacleKind.SPHERE,
@@ -248,7 +255,7 @@ def _solid(
         friction=obstacle.friction,
         restitution=obstacle.restitution,
         capsules=touching,
-        ends=ends_met(together, capsules, touching),
+        ends=ends(touching),
     )
     if isinstance(obstacle, PlaneObstacle):
         edge = np.zeros(3) if obstacle.edge is None else _unit(obstacle.edge)

@@ -5,7 +5,8 @@ changes by d_k = (q_j - q_i)/L_k across it.  A member is braced if in every moti
 
 - both of its nodes stand still: what loads them changes lengths; or
 - nothing turns against it: one rotation w explains what it and all that it meets at both ends do,
-  w x e_k = d_k, with no part of w that a support there holds.  A triangle that is thrown is a case.
+  w x e_k = d_k, with no more of w that a support there holds than pivots a little out of line do.  A triangle
+  that is thrown is a case, and a wishbone on its two pivots.
 
 Limits: of first order, as the framework.  Members in line that can kink at a node between them are not
 braced, even in a triangle: they begin to move without stretching, or are a held run (held_runs).
@@ -14,6 +15,7 @@ Only spherical joints are taken to let members turn, which can only make fewer m
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -27,6 +29,11 @@ from crumple.structure.hinges.lengthening.framework import (
     supported,
 )
 from crumple.structure.parts import StructureParts
+
+OUT_OF_LINE = math.sin(math.radians(15.0))
+"""Part of a rotation that supports hold of members that turn as one, up to which their pivots are in line."""
+LITTLE = 1e-4
+"""Weight of what supports hold: of the rotations that members leave open, the one with the least of it."""
 
 
 def braced(structure: StructureParts) -> frozenset[str]:
@@ -63,11 +70,17 @@ def _unturned(structure: StructureParts, member: str, turned: dict[str, Floats])
         return False
     turning = [member, *sorted(met)]
     # w x e = -e x w
-    rows = [-_cross(structure.frame_of(name).x) for name in turning] + [np.eye(3)[sorted(held)]]
-    wanted = [turned[name] for name in turning] + [np.zeros((len(held), MOTIONS))]
-    matrix, right = np.concatenate(rows), np.concatenate(wanted)
-    rotation = np.linalg.lstsq(matrix, right, rcond=None)[0]
-    return bool(np.abs(matrix @ rotation - right).max() <= STILL)
+    matrix = np.concatenate([-_cross(structure.frame_of(name).x) for name in turning])
+    wanted = np.concatenate([turned[name] for name in turning])
+    kept = LITTLE * np.eye(3)[sorted(held)]
+    rotation = np.linalg.lstsq(
+        np.concatenate([matrix, kept]),
+        np.concatenate([wanted, np.zeros((len(held), MOTIONS))]),
+        rcond=None,
+    )[0]
+    against = np.linalg.norm(rotation[sorted(held)], axis=0)
+    most = OUT_OF_LINE * np.linalg.norm(rotation, axis=0) + STILL
+    return bool(np.abs(matrix @ rotation - wanted).max() <= STILL and (against <= most).all())
 
 
 def _met(structure: StructureParts, member: str, node: str) -> Iterator[str]:

@@ -14,10 +14,11 @@ import numpy as np
 
 from crumple.numeric.arrays import Floats
 from crumple.structure.hinges.corners import leaving
+from crumple.structure.hinges.joint_reach import nearest_ends
 from crumple.structure.hinges.lengthening.framework import free_directions
 from crumple.structure.keys.obstacles import Obstacle, PlaneObstacle, gap
 from crumple.structure.parts import StructureParts
-from crumple.structure.struck_places import LEAST, PLACES, axis_gaps
+from crumple.structure.struck_places import LEAST
 
 FLAT = math.radians(25.0)
 """Angle by which members at a node may lead towards a plane that meets it."""
@@ -62,10 +63,7 @@ def _first(structure: StructureParts, obstacle: Obstacle) -> Iterator[str]:
         return
     if not names:
         return
-    gaps = axis_gaps(structure, obstacle, names)
-    nearest = np.argwhere(gaps <= gaps.min() + LEAST)
-    ends = [(names[which], PLACES[place]) for which, place in nearest if PLACES[place] in (0.0, 1.0)]
-    yield from dict.fromkeys(structure.members[name].nodes[int(end)] for name, end in ends)
+    yield from dict.fromkeys(node for _, node in nearest_ends(structure, obstacle, names))
 
 
 def _outwards(obstacle: Obstacle, point: Floats) -> Floats:
