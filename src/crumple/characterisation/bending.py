@@ -52,9 +52,10 @@ class Bending:
     axis
         Axis of the section about which it bends; that of a corner is normal to its plane.
     sense
-        +1 or -1: sense of rotation about the axis.  +1 closes a corner, -1 opens it.
+        +1 or -1: sense of rotation about the axis.  +1 closes a corner of a positive angle, -1 opens it.
     angle
-        Angle between the axes of the pieces [rad], pi/2 for a right-angled corner; None: a straight member.
+        Angle by which the second piece is turned about the axis [rad], pi/2 for a right-angled corner; None:
+        a straight member.  If negative, the section has its other side inside.
     largest
         Plastic rotation at which the law ends [rad].
     kink
@@ -95,6 +96,11 @@ class Bending:
         return self.angle is None and is_mirrored(self.section, self.axis)
 
     @property
+    def closes(self) -> bool:
+        """Whether it closes a corner."""
+        return self.angle is not None and self.sense * self.angle > 0.0
+
+    @property
     def watched_from(self) -> float:
         """Plastic rotation [rad] from which the kinetic energy is watched."""
         return math.radians(2.0)
@@ -104,7 +110,7 @@ class Bending:
         """One line for people."""
         if self.angle is None:
             return f"{self.section.title}, bending about {self.axis}, sense {self.sense:+d}"
-        doing = "closed" if self.sense > 0 else "opened"
+        doing = "closed" if self.closes else "opened"
         angle = f"{math.degrees(self.angle):.4g} deg"
         return f"{self.section.title}, corner of {angle}, {doing} about {self.axis}"
 

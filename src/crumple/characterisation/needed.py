@@ -96,8 +96,9 @@ def needed(structure: Structure, largest: float) -> tuple[Needed, ...]:
             add(Crush(section, material), name)
     for node, corner in corners(structure).items():
         section, material = structure.section_of(corner.first), structure.material_of(corner.first)
-        add(Bending(section, material, corner.axis, angle=corner.angle, largest=largest), node)
-        if not planar(structure) and is_mirrored(section, corner.across):
+        add(Bending(section, material, corner.axis, angle=corner.turn, largest=largest), node)
+        # those of turned sections have no sub-model out of their plane
+        if not planar(structure) and not corner.turned and is_mirrored(section, corner.across):
             for about in DIRECTIONS:
                 place = section, material, corner.axis, corner.angle, about, largest
                 add(OutOfPlane(*place, resolution=usual_resolution(section, about)), node)

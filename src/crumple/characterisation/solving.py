@@ -211,7 +211,8 @@ class _Solver:
             except StrongCornerError:
                 pass
         curve = self.run(replace(other, angle=None), "the member, where the corner is as strong")[1]
-        doing = "closed" if other.sense > 0 else "opened"
+        closes = other.closes if isinstance(other, Bending) else other.sense > 0
+        doing = "closed" if closes else "opened"
         return curve, {doing: "as strong as the members, so it has the law of the straight member"}
 
     def with_rate(self, law: StoredLaw, model: Turned, pair: CowperSymonds, static: LawCurve) -> StoredLaw:

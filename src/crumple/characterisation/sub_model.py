@@ -118,7 +118,7 @@ def corner_piece(section: Section, axis: Axis, angle: float) -> float:
     """Least length of the pieces of a corner [m], so that shells join them by a mitre."""
     across = 1 if axis == "y" else 0
     reach = float(np.abs(section.outer_outline()[:, across]).max())
-    return shortest_with_mitre(reach, angle)
+    return shortest_with_mitre(reach, abs(angle))
 
 
 def is_mirrored(section: Section, axis: Axis) -> bool:

@@ -77,6 +77,8 @@ OPTIONS = {
         {"angle": 0.5, "closing": "negative"},
         {"angle": math.pi / 2},
         {"angle": 0.1, "closing": "negative"},
+        {"angle": 1.2},
+        {"angle": 0.6, "closing": "negative"},
     ],
     "mitred_corner_across": [{"angle": math.pi / 2}, {"angle": 0.5, "about": "tangent"}],
     "measured": [
@@ -100,7 +102,7 @@ ASYMMETRIC = {
     ("table", 1),
     *(("folded_profile", number) for number in range(4)),
     ("hardening_section", 0),
-    *(("mitred_corner", number) for number in range(4)),
+    *(("mitred_corner", number) for number in range(6)),
 }
 
 
@@ -163,6 +165,8 @@ SECTIONS = {
     ("circular", None): lambda s: CircularTube(s.width, s.thickness),
     ("mitred_corner", 2): lambda s: CircularTube(s.width, s.thickness),
     ("mitred_corner", 3): lambda s: CircularTube(s.width, s.thickness),
+    ("mitred_corner", 4): lambda s: ClosedHat(s.width, s.depth, sheet(s), 0.3 * s.width),
+    ("mitred_corner", 5): lambda s: ClosedHat(s.width, s.depth, sheet(s), 0.3 * s.width),
     ("folded_profile", 0): lambda s: Channel(s.width, s.depth, sheet(s)),
     ("folded_profile", 1): lambda s: Channel(s.width, s.depth, sheet(s), lip=0.2 * s.depth),
     ("folded_profile", 2): lambda s: Hat(s.width, s.depth, sheet(s), 0.3 * s.width),

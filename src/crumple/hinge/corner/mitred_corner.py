@@ -31,6 +31,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from crumple.hinge.bending.kecman import KecmanLaw
+from crumple.hinge.corner.hat_corner import HatCornerLaw
 from crumple.hinge.corner.in_plane import Closing, InPlaneLaw, rounded, slope_of
 from crumple.hinge.corner.round_corner import RoundCornerLaw
 from crumple.hinge.law import Source, Trust, Validity
@@ -40,7 +41,7 @@ from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.numeric.sign_change import sign_change
 from crumple.registry.quantity import PositiveAngle
-from crumple.section import Axis, CircularTube, Section
+from crumple.section import Axis, CircularTube, ClosedHat, Section
 
 SOURCE = Source(
     "mitred corner: webs over the mitre, flanges by bending of their walls, softening of the straight tube",
@@ -62,7 +63,7 @@ UNCERTAINTY = 0.25
 
 @dataclass(frozen=True)
 class MitredCornerLaw(InPlaneLaw):
-    """Corner of two rectangular or circular tubes in a mitre, bent in its plane: an estimate from shells.
+    """Corner of two tubes or closed hats in a mitre, bent in its plane: an estimate from shells.
 
     Attributes
     ----------
@@ -88,12 +89,12 @@ class MitredCornerLaw(InPlaneLaw):
         angle: PositiveAngle,
         closing: Closing | str = Closing.POSITIVE,
     ) -> InPlaneLaw:
-        """Law of a corner; of round tubes, a `RoundCornerLaw`.
+        """Law of a corner; of round tubes a `RoundCornerLaw`, of closed hats a `HatCornerLaw`.
 
         Parameters
         ----------
         section
-            Rectangular or circular tube, of both members.
+            Rectangular or circular tube, or closed hat, of both members.
         material
             Yield stress and elastic modulus.
         axis
@@ -101,16 +102,19 @@ class MitredCornerLaw(InPlaneLaw):
         angle
             Angle between the members' axes, 0 in line [rad].
         closing
-            Sense of the hinge's rotation that closes the corner.
+            Sense of the hinge's rotation that closes the corner.  Hats have their plate inside if it is
+            positive, their crown if it is negative.
 
         Raises
         ------
         InputError
-            If the section is neither, or the angle is outside 5 to 100 degrees.
+            If the section is none of these, or the angle is outside 5 to 100 degrees.
         """
         s, sense = slope_of(angle), choice("closing", closing, Closing)
         if isinstance(section, CircularTube):
             return RoundCornerLaw.of(section, material, angle=angle, closing=sense)
+        if isinstance(section, ClosedHat):
+            return HatCornerLaw.of(section, material, axis, angle=angle, closing=sense)
         tube = KecmanLaw.of(section, at_yield(material), axis, after_jamming="hold")
         wall = section.thickness
         across, deep = section.flange_width(axis) - wall, section.bending_depth(axis) - wall

@@ -88,8 +88,11 @@ def _wants(structure: StructureParts, member: str) -> bool:
 
 
 def _stored(structure: StructureParts, corner: Corner, asked: LawKeys, text: str) -> LawKeys:
-    """Stored law of a corner; in a plane with the spring of its walls."""
-    own = text if corner.sense > 0 else write_law(mirrored(read_law(text)))
+    """Stored law of a corner; in a plane with the spring of its walls.
+
+    That of a turned section is of rotations about the section's axis in this position.
+    """
+    own = text if corner.sense > 0 or corner.turned else write_law(mirrored(read_law(text)))
     law = with_type(asked, "file", text=own)
     if planar(structure) and law.form == "set-valued":
         law = law.model_copy(update={"form": ELASTIC})
@@ -194,13 +197,13 @@ def _shortening(
     """Slip at a corner of elastic members in a plane that obstacles may press: compression folds it too.
 
     Without obstacles axial forces are small, and the planar kernel, which has no slip, solves the model. The
-    shortening of round tubes is not known. The input may say `axial: false` or another coupling; the
+    shortening of round tubes and hats is not known. The input may say `axial: false` or another coupling; the
     regularised form cannot slip.
     """
     members = [structure.members[name] for name in (corner.first, corner.second)]
     asked = automatic_of(structure, corner.first)
     declined = asked is not None and asked.axial is None and "axial" in asked.model_fields_set
-    known = not corner.is_round(structure) and law.form != "regularised"
+    known = structure.section_of(corner.first).kind == "rectangular_tube" and law.form != "regularised"
     able = structure.obstacles and all(member.elastic for member in members) and known
     if declined or not able or keys["coupling"] is not None:
         return {}

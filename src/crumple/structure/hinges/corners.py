@@ -28,6 +28,9 @@ ALIKE = 5e-3
 """Distance of the points of two outlines, over the section's largest side, below which they are one: square
 tubes turned by 0.4 degrees, far above rounded coordinates and far below a wall's thickness."""
 
+BOTH_WAYS = ("closed_hat",)
+"""Sections whose corners are known with either side inside."""
+
 
 class Lacks(Enum):
     """What two members at an angle lack for a mitred corner."""
@@ -60,6 +63,9 @@ class Corner:
     normal
         Unit vector across its plane: a positive rotation about it turns the first member's way on to that of
         the second, (3,).
+    turned
+        Whether the section lies the other way round than in the sub-model of a positive angle: the crown of
+        a closed hat, not its plate, is on the inner side.
     """
 
     node: str
@@ -69,16 +75,22 @@ class Corner:
     angle: float
     sense: int
     normal: tuple[float, float, float]
+    turned: bool = False
+
+    @property
+    def turn(self) -> float:
+        """Angle of the second piece of its sub-model about the section's axis [rad]; negative if turned."""
+        return -self.angle if self.turned else self.angle
 
     def place(self, structure: StructureParts) -> str:
         """Hash of the place, by which a store knows its law."""
         section, material = structure.section_of(self.first), structure.material_of(self.first)
-        return place_hash(section, material, self.axis, self.angle)
+        return place_hash(section, material, self.axis, self.turn)
 
     def place_out_of_plane(self, structure: StructureParts, about: Direction) -> str:
         """Hash of the place out of the corner's plane, about its bisector or its tangent."""
         section, material = structure.section_of(self.first), structure.material_of(self.first)
-        return place_hash(section, material, self.axis, self.angle, load="out-of-plane", about=about)
+        return place_hash(section, material, self.axis, self.turn, load="out-of-plane", about=about)
 
     def is_round(self, structure: StructureParts) -> bool:
         """Whether its tubes are round: their sections have no axis of their own, so the plane gives it."""
@@ -185,12 +197,13 @@ def _corner(structure: StructureParts, node: str, members: list[str]) -> Corner 
     if axis is None:
         return Lacks.POSITION, "no axis of the section is normal to the corner's plane (out of plane)"
     ways = ((first, arriving), (second, onward))
-    if not _lie_alike(structure, ways, normal, axis):
-        return Lacks.POSITION, _position(structure, ways, normal, axis)
+    lies = _as_modelled(structure, ways, normal, axis)
+    if lies is None or (lies < 0 and structure.section_of(first).kind not in BOTH_WAYS):
+        return Lacks.POSITION, _position(structure, ways, normal, lies)
     ends_here = structure.members[first].nodes[1] == node
     along_normal = float(structure.frame_of(first).axis(axis) @ normal) > 0.0
     sense = 1 if along_normal == ends_here else -1
-    return Corner(node, first, second, axis, angle, sense, tuple(normal.tolist()))
+    return Corner(node, first, second, axis, angle, sense, tuple(normal.tolist()), lies < 0)
 
 
 def _reasons(
@@ -251,35 +264,46 @@ def _axis_along(structure: StructureParts, member: str, normal: Floats) -> Axis 
     return None
 
 
-def _lie_alike(
-    structure: StructureParts,
-    members: tuple[tuple[str, Floats], ...],
-    normal: Floats,
-    axis: Axis | None = None,
-) -> bool:
+def _lie_alike(structure: StructureParts, members: tuple[tuple[str, Floats], ...], normal: Floats) -> bool:
     """Whether one section lies in one way to a plane in members along given directions.
 
-    With an axis also as in the sub-model of a corner.  Round sections lie alike however they are turned.
+    Round sections lie alike however they are turned.
+    """
+    if structure.section_of(members[0][0]).kind == "circular_tube":
+        return True
+    one, other = (_outline(structure, *member, normal) for member in members)
+    return _same_points(other, one)
+
+
+def _as_modelled(
+    structure: StructureParts, members: tuple[tuple[str, Floats], ...], normal: Floats, axis: Axis
+) -> int | None:
+    """How a section lies in members along given directions: 1 as in the sub-model of a corner, -1 turned.
+
+    None: in neither way, or not alike in the members.
     """
     first = members[0][0]
     if structure.section_of(first).kind == "circular_tube":
-        return True
-    outlines = [_outline(structure, *one, normal) for one in members]
-    reference = outlines[0] if axis is None else _modelled(structure, first, axis)
-    return all(_same_points(outline, reference) for outline in outlines)
+        return 1
+    reference = _modelled(structure, first, axis)
+    outlines = [_outline(structure, *member, normal) for member in members]
+    for way in (1, -1):
+        if all(_same_points(outline, way * reference) for outline in outlines):
+            return way
+    return None
 
 
 def _position(
-    structure: StructureParts, members: tuple[tuple[str, Floats], ...], normal: Floats, axis: Axis
+    structure: StructureParts, members: tuple[tuple[str, Floats], ...], normal: Floats, lies: int | None
 ) -> str:
     """How a section lies in two members that meet at an angle, where it does not lie as in the sub-model."""
-    if not _lie_alike(structure, members, normal):
-        return "the section does not lie in the same way to the corner's plane in both members"
-    if _same_points(_outline(structure, *members[0], normal), -_modelled(structure, members[0][0], axis)):
+    if lies is not None:
         return (
             "the section lies alike in both members, but the other way round than in the sub-model (the "
             "corner would be recognised with 'roll' larger by 180 deg in both members: another structure)"
         )
+    if not _lie_alike(structure, members, normal):
+        return "the section does not lie in the same way to the corner's plane in both members"
     return "the section lies alike in both members, but as a mirror image of that of the sub-model"
 
 

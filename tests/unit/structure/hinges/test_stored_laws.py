@@ -272,7 +272,8 @@ def test_corners_without_a_sub_model_are_named_with_the_reason(change, reason):
     assert reason in untreated(whole)["b"]
 
 
-HAT = {"type": "closed_hat", "width": 0.05, "depth": 0.04, "thickness": 0.0016, "flange": 0.016}
+HAT = {"type": "hat", "width": 0.05, "depth": 0.04, "thickness": 0.0016, "flange": 0.016}
+CLOSED_HAT = HAT | {"type": "closed_hat"}
 DOWNWARDS = {"a": (0.0, 0.0, 0.0), "b": (0.0, 0.0, -0.36), "c": (0.28, 0.0, -0.4)}
 HATS = {"sections": {"tube": HAT}, "nodes": DOWNWARDS}
 
@@ -295,9 +296,11 @@ HATS = {"sections": {"tube": HAT}, "nodes": DOWNWARDS}
         ),
         (
             {**HATS, "roll": math.pi},
-            "no formula has mitres of closed_hat sections: hinges there have the law",
+            "no formula has mitres of hat sections: hinges there have the law",
         ),
         (HATS, "recognised with 'roll' larger by 180 deg in both members: another structure): members"),
+        (HATS | {"sections": {"tube": CLOSED_HAT}}, None),
+        (HATS | {"sections": {"tube": CLOSED_HAT}, "roll": math.pi}, None),
         ({}, None),
         ({"hinges": None, "arm": {"hinges": [{"name": "h", "at": 0.1, "law": "kecman"}], "roll": 0.5}}, None),
         ({"masses": {"m": {"node": "b", "mass": 1.0}}, "nodes": NODES | {"c": (0.4, 0.0, 0.05)}}, None),

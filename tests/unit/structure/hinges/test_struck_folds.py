@@ -327,7 +327,7 @@ hinges: auto
 supports: {foot: {node: left, fix: all}, end: {node: right, fix: [FIX, ry, rz, rx]}}
 MORE
 obstacles:
-  pole: {type: cylinder, point: [280 mm, 0 m, 90 mm], axis: [0, 1, 0], radius: 50 mm, mass: 20 kg,
+  pole: {type: cylinder, point: [240 mm, 0 m, 90 mm], axis: [0, 1, 0], radius: 50 mm, mass: 20 kg,
          velocity: [0 m/s, 0 m/s, -5 m/s], guide: [0, 0, -1], members: [beam]}
 analysis: {duration: 10 ms}
 """
@@ -357,10 +357,16 @@ def test_a_tube_spans_beyond_a_kink_that_nothing_holds(right, drop, fix, more, g
     tube = RectangularTube(section.width, section.depth, section.thickness)
     near, beside = strike.spans
     further = (near, beside + 0.5) if goes_on else strike.spans
-    deep = left_in_bending(tube, steel, 60e-3, moment, strike.spans, (1.0, 1.0))
+    # the mitre, where nothing keeps it in shape, carries less than the hat
+    mitre = [hinge.law for hinge in plastic_hinges(structure) if hinge.name == "corner-kink"]
+    held = (1.0, min([_largest(law) / moment for law in mitre], default=1.0))
+    deep = left_in_bending(tube, steel, 60e-3, moment, strike.spans, held)
     assert (left > 1.2 * deep) == goes_on
     if goes_on:
         assert left == pytest.approx(left_in_bending(tube, steel, 60e-3, moment, further, (1.0, 1.0)))
+    else:
+        assert left == pytest.approx(deep)
+        assert bool(mitre) == (not more)
 
 
 @pytest.mark.parametrize(("folds", "found"), [(0.8, False), (1.3, True), (3.0, True)])

@@ -248,7 +248,7 @@ def _validity(section: Section, material: Material, peaks: list[MomentCapacity],
     )
     sentences = ["compared with shells of channels of 1.2 to 2.5 mm and hats of 1 to 2 mm, not with tests"]
     if isinstance(section, ClosedHat):
-        outside = _not_compared(section, material)
+        outside = not_compared(section, material)
         sentences = ["the spot welds do not fail in this law"]
         if outside:
             basis = "the band is the one of open profiles"
@@ -262,7 +262,7 @@ def _validity(section: Section, material: Material, peaks: list[MomentCapacity],
     )
 
 
-def _not_compared(section: ClosedHat, material: Material) -> str:
+def not_compared(section: ClosedHat, material: Material) -> str:
     """What of a closed hat lies outside of those that were compared with shells; empty if nothing does."""
     shares = {
         "width/thickness": section.width / section.thickness,
