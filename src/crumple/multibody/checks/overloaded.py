@@ -17,7 +17,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from crumple.hinge import Freedom
+from crumple.hinge import Coupling, Freedom
 from crumple.multibody.answer.forces import on_second
 from crumple.multibody.answer.poses import SpatialHistory, SpatialPoses
 from crumple.multibody.answer.solved import Solved
@@ -29,6 +29,7 @@ from crumple.result import Caution
 from crumple.section import Axis, half_fold_length
 from crumple.structure import Structure, placed_hinges
 from crumple.structure.hinges.asked import automatic_of
+from crumple.structure.hinges.corner_laws import corner_of
 from crumple.structure.hinges.elastic_members import folds_from
 from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.joints.placed_hinge import PlacedHinge
@@ -37,6 +38,9 @@ from crumple.units import format_quantity
 
 USED = 1.1
 """Use of a section's capacity above which a caution is given: the fit of the interaction is up to 6 % off."""
+FLANGE, PRESSED_TURN = 0.3, math.radians(3.0)
+"""Share of a fold's moment that its compression would take if it turned about its tension flange, and turn
+of a hinge above it, from which a caution says so."""
 LEAST_TURN = math.radians(1.0)
 """Rotation of a joint below which no fold of any section softens: its law is not asked."""
 BEND = ", or let members bend with analysis.multibody.members: elastic"
@@ -198,3 +202,46 @@ def folds_between(structure: Structure, solved: Solved) -> Iterator[Caution]:
                 "Add hinges (hinges: {spacing: ...})."
             )
             yield Caution("fold_between_hinges", most, limit, "rad", f"member {member}", text)
+
+
+def pressed_folds(structure: Structure, solved: Solved) -> Iterator[Caution]:
+    """One caution for all hinges that fold under compression of which a fold of walls would lose much more.
+
+    In shells a fold that has softened turns about its tension flange, so that compression N takes N b/2 of
+    its moment, b the depth between the flanges; the walls of a whole section lose less, and a hinge that
+    cannot shorten loses nothing.  Laws of corners know of it, and so do hinges with that coupling.
+    """
+    poses = solved.poses
+    if not isinstance(poses, SpatialPoses) or poses.rows < 2:
+        return
+    found: dict[str, float] = {}
+    histories = {history.hinge.name: history for history in solved.hinges}
+    for number, connection in enumerate(poses.linkage.connections):
+        hinge = connection.hinge
+        if hinge is None or hinge.name not in histories or _knows_compression(structure, hinge):
+            continue
+        axis = turned(poses.quaternion(connection.first), structure.frame_of(hinge.member).x)
+        pressed = np.einsum("nk,nk->n", on_second(poses, number).force, np.broadcast_to(axis, (len(axis), 3)))
+        section = structure.section_of(hinge.member)
+        arm = min(section.bending_depth(about) for about in AXES) / 2.0 - section.thickness / 2.0
+        lost = np.minimum(pressed[1:], pressed[:-1]) * arm / float(hinge.record.positive.moment.max())
+        flow = np.abs(np.diff(histories[hinge.name].values("plastic_rotation")))
+        if float(flow[lost > FLANGE].sum()) > PRESSED_TURN:
+            found[hinge.name] = float(lost[flow > 0.0].max())
+    if found:
+        one, most = len(found) == 1, max(found.values())
+        text = (
+            f"{named('Hinge', list(found))} {'folds' if one else 'fold'} under compression that would take "
+            f"up to {100.0 * most:.0f} % of {'its' if one else 'their'} moment about the tension flange, "
+            "about which softened folds of tubes turn in shells. The interaction of the whole section takes "
+            "less (and nothing where a hinge has no 'axial'): forces may be too large, and the structure may "
+            "fold elsewhere. Compare with shells."
+        )
+        for name, value in found.items():
+            yield Caution("pressed_fold", value, FLANGE, "1", f"hinge {name}", text)
+
+
+def _knows_compression(structure: Structure, hinge: PlacedHinge) -> bool:
+    """Whether a hinge is a corner's, or turns about its tension flange, or is no fold."""
+    flange = hinge.spatial is not None and hinge.spatial.surface.coupling is Coupling.TENSION_FLANGE
+    return not hinge.plastic or flange or corner_of(structure, hinge.name) is not None

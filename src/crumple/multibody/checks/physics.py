@@ -22,7 +22,7 @@ from crumple.multibody.bodies.rigid import lump_mass, piece_mass
 from crumple.multibody.checks.crushing import buckling_cautions, crushing_cautions, lengths_beyond
 from crumple.multibody.checks.folded_over import folded_over
 from crumple.multibody.checks.names import named
-from crumple.multibody.checks.overloaded import folds_between, overloaded_sections
+from crumple.multibody.checks.overloaded import folds_between, overloaded_sections, pressed_folds
 from crumple.multibody.checks.struck import pressed_beyond, struck_cautions
 from crumple.multibody.checks.torque import torques_without_twist
 from crumple.numeric.arrays import Floats
@@ -62,6 +62,7 @@ AT_OUTPUTS = frozenset(
         "node_speed",
         "overloaded_section",
         "pressed_beyond",
+        "pressed_fold",
         "torque_without_twist",
     }
 )
@@ -103,6 +104,7 @@ def physics_cautions(structure: Structure, solved: Solved, *, slow: Collection[s
         *pressed_beyond(structure, solved, slow),
         *overloaded_sections(structure, solved),
         *folds_between(structure, solved),
+        *pressed_folds(structure, solved),
         *torques_without_twist(structure, solved),
         *fast_nodes(structure, solved, total),
         *impact_losses(structure, solved, total),
