@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from crumple.errors import InputError
 from crumple.hinge import HingeLaw, HingeRecord
-from crumple.hinge.bending.dented import DentedLaw
+from crumple.hinge.bending.dented import DentedLaw, WrappedLaw
 from crumple.hinge.bending.pressed import PressedLaw
 from crumple.hinge.inside import LawInside
 from crumple.hinge.law_use import INPUT, LawUse, Origin
@@ -143,7 +143,7 @@ def _has_checksum(law: HingeLaw) -> bool:
 
 def stored_text_of(structure: StructureParts, place: HingePlace, law: HingeLaw) -> str | None:
     """Text of the stored law that a hinge has; None if its law is not from the store."""
-    while isinstance(law, DentedLaw | PressedLaw):
+    while isinstance(law, DentedLaw | WrappedLaw | PressedLaw):
         law = law.law
     if structure.laws is None or not isinstance(law, StoredLaw) or is_named_law(structure, place):
         return None

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from crumple.hinge import HingeLaw
-from crumple.hinge.bending.dented import DentedLaw
+from crumple.hinge.bending.dented import DentedLaw, WrappedLaw, wraps
 from crumple.hinge.bending.pressed import Press, PressedLaw
 from crumple.hinge.dent import Dent, dent_of, denting_force, left_by_dent, left_in_bending
 from crumple.hinge.registry import AUTO
@@ -81,9 +81,13 @@ def with_dent(
     held = _held(structure, bent, strike, moment)
     spans = strike.spans[0] + ends[0].further, strike.spans[1] + ends[1].further
     left = left_in_bending(section, material, tube.depth, moment, spans, held)
+    pole = structure.obstacles[tube.obstacle]
+    if isinstance(section, CircularTube) and isinstance(pole, CylinderObstacle):
+        most = 2.0 * half_fold_length(section, axis) / (pole.radius + tube.depth / 2.0)
+        if wraps(law, most, sense):
+            return WrappedLaw(law, most)
     if not isinstance(structure.section_of(member), RectangularTube):
         return DentedLaw(law, left)
-    pole = structure.obstacles[tube.obstacle]
     assert isinstance(pole, CylinderObstacle)
     assert isinstance(section, RectangularTube)
     force, half = denting_force(section, material), half_fold_length(section, axis)

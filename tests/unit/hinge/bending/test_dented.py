@@ -1,16 +1,19 @@
 """Laws of folds in dents begin at what the dented section carries."""
 
+import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from crumple.hinge import build_law
-from crumple.hinge.bending.dented import DentedLaw
+from crumple.hinge.bending.dented import DentedLaw, WrappedLaw, wraps
 from crumple.material import Material
 from crumple.section import CircularTube
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3, density=7850.0, yield_stress=350e6)
+STEEL_600 = replace(STEEL, yield_stress=600e6)
 ROUND = build_law("circular", CircularTube(60e-3, 2e-3), STEEL, "y")
 GRID = np.radians(np.linspace(0.0, 40.0, 401))
 
@@ -47,3 +50,33 @@ def test_what_does_not_change():
     for name in ("name", "source", "validity", "elastic_stiffness", "softening_variable", "rate", "stop"):
         assert getattr(dented, name) == getattr(ROUND, name)
     assert "dented: at most 0.7" in dented.title
+
+
+def test_a_wrapped_law_is_that_of_the_fold_up_to_the_curvature_of_the_pole():
+    law = build_law("circular", CircularTube(0.035, 0.0028), STEEL_600, "y")
+    wrapped = WrappedLaw(law, 0.25)
+    at = np.linspace(0.0, 1.5, 61)
+    wanted = law.moment_capacity(np.minimum(at, 0.25))
+    np.testing.assert_array_equal(wrapped.moment_capacity(at), wanted)
+    assert wrapped.kinks()[-1] == 0.25
+    assert all(kink <= 0.25 for kink in wrapped.kinks())
+    assert "around a pole from 14.3 deg on" in wrapped.title
+    assert wrapped.validity.rotation_max == math.inf
+    assert WrappedLaw(law, math.inf).validity == law.validity
+    assert WrappedLaw(law, math.inf).jamming_angle == law.jamming_angle
+    assert wrapped.jamming_angle is None
+
+
+def test_a_tube_wraps_if_its_fold_has_not_softened_by_a_seventh():
+    law = build_law("circular", CircularTube(0.035, 0.0028), STEEL_600, "y")
+    softened = next(
+        float(at)
+        for at in np.linspace(0.0, 1.0, 1001)
+        if law.moment_capacity(at) < 0.85 * law.moment_capacity(0.0)
+    )
+    assert wraps(law, softened - 2e-3, 1)
+    assert not wraps(law, softened + 2e-3, 1)
+    # a pole as sharp as this touches it in one place, whatever the law
+    flat = build_law("constant", CircularTube(0.035, 0.0028), STEEL_600, "y", moment=1e3)
+    assert wraps(flat, 1.5, 1)
+    assert not wraps(flat, 1.6, 1)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from crumple import loads
-from crumple.hinge.bending.dented import DentedLaw
+from crumple.hinge.bending.dented import DentedLaw, WrappedLaw
 from crumple.hinge.bending.pressed import PressedLaw
 from crumple.hinge.dent import left_in_bending
 from crumple.hinge.registry import build_law
@@ -144,6 +144,20 @@ def test_a_wide_pole_does_not_sink_into_a_fold(radius, sinks):
     pole = POLE.replace("HEIGHT", str(40 + radius)).replace("radius: 50", f"radius: {radius}")
     laws = {hinge.name: hinge.law for hinge in plastic_hinges(structure_of("square", pole))}
     assert isinstance(laws["beam-pole"], PressedLaw if sinks else DentedLaw)
+
+
+@pytest.mark.parametrize(("radius", "kind"), [(50, DentedLaw), (200, WrappedLaw)])
+def test_a_thick_round_tube_bends_around_a_wide_pole(radius, kind):
+    pole = HIGH.replace("radius: 50", f"radius: {radius}").replace("90 mm", f"{radius + 40} mm")
+    structure = structure_of("round", pole, ("thickness: 2 mm", "thickness: 5 mm"))
+    place = next(place for place in hinge_places(structure) if place.name == "beam-pole")
+    law = law_of(structure, place)
+    assert type(law) is kind
+    fold = 2.0 * half_fold_length(structure.section_of("beam"), "y")
+    assert kind is DentedLaw or law.most == pytest.approx(fold / (radius + 30.0) * 1e3)
+    # as thin as before it is dented, however wide the pole
+    thin = structure_of("round", pole)
+    assert type(law_of(thin, place)) is DentedLaw
 
 
 def test_a_tube_that_is_free_to_turn_at_its_ends_bends_before_it_is_dented_deeply():
