@@ -289,17 +289,25 @@ outputs: {distances: {box: {from: front, to: flange}}}
         ((("{translation", "{nodes: [rear], translation"),), {"box", "horn", "rail"}),
         # what leads away across the blow is not pressed
         ((("rear: [0.82 m, 0 m, 0.0893 m]", "rear: [0.5 m, 0 m, 0.4 m]"),), {"box", "horn"}),
-        # across the box, moving away, or where a support or another member is at its end
+        # behind a joint, too, what leads away along the blow: not a beam on the front of the box
+        (
+            (
+                ("front: [0 m", "tip: [0 m, 0.1 m, 0 m]\n  front: [0 m"),
+                ("members:\n", "members:\n  tip: {nodes: [front, tip], section: box, material: mild}\n"),
+            ),
+            {"box", "horn", "rail"},
+        ),
+        (
+            (("members:\n", "members:\n  link: {nodes: [front, rear], section: box, material: mild}\n"),),
+            {"box", "horn", "rail", "link"},
+        ),
+        # across the box, moving away, or where a support is at its end
         (((WALL, "normal: [1, 0, 1]"),), set()),
         ((("[-8 m/s", "[8 m/s"),), set()),
         ((("supports: {", "supports: {end: {node: front, fix: [z]}, "),), set()),
-        (
-            (("members:\n", "members:\n  link: {nodes: [front, rear], section: box, material: mild}\n"),),
-            set(),
-        ),
     ],
 )
-def test_members_behind_a_free_end_that_is_struck_along_its_axis(changes, struck):
+def test_members_behind_a_node_that_is_struck_along_their_axes(changes, struck):
     text = BOX
     for old, new in changes:
         assert old in text

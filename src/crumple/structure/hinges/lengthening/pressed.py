@@ -35,10 +35,10 @@ def struck_along(structure: StructureParts, member: str) -> bool:
 
 
 def struck_ends(structure: StructureParts) -> frozenset[str]:
-    """Members behind a free end that an obstacle meets along its axis, through all bends within `ALONG`.
+    """Members that lead away from a node that an obstacle meets, along the blow, and those behind them.
 
-    Bends keep such a structure from stopping; a crash box in front of them folds all the same, and what is
-    behind them bends under the axial force.
+    Bends keep such a structure from stopping, and so does a wall that meets the tip of a beam before the
+    boxes behind it; a crash box folds all the same, and what is behind it bends under the axial force.
     """
     return structure.kept.once("struck ends", "", lambda: frozenset(_struck_ends(structure)))
 
@@ -46,12 +46,12 @@ def struck_ends(structure: StructureParts) -> frozenset[str]:
 def _struck_ends(structure: StructureParts) -> Iterator[str]:
     for obstacle in structure.obstacles.values():
         for node, outwards in nodes_met(structure, obstacle):
-            names = [name for name in structure.members_at[node] if structure.is_whole(name)]
-            if len(names) != 1 or node in structure.supports_at:
+            if node in structure.supports_at or not approaches(structure, obstacle, node, outwards):
                 continue
-            along = float(leaving(structure, names[0], node) @ outwards)
-            if along > math.cos(FLAT) and approaches(structure, obstacle, node, outwards):
-                yield from _behind(structure, names[0], node, outwards)
+            for name in structure.members_at[node]:
+                along = float(leaving(structure, name, node) @ outwards)
+                if structure.is_whole(name) and along > math.cos(FLAT):
+                    yield from _behind(structure, name, node, outwards)
 
 
 def _behind(structure: StructureParts, member: str, node: str, blow: Floats) -> Iterator[str]:
