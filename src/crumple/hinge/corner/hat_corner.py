@@ -92,7 +92,7 @@ class HatCornerLaw(InPlaneLaw):
 
     References
     ----------
-    docs/theory/mitred_corner.md.  Verified in tests/verification/hinge/test_hat_corners.py.
+    docs/theory/mitred_corner.md.  Verified in tests/verification/characterisation/test_hat_corners.py.
     """
 
     source: ClassVar[Source] = SOURCE
