@@ -8,11 +8,15 @@ from dataclasses import replace
 import numpy as np
 
 from crumple.hinge import Freedom
+from crumple.hinge.record.spatial_record import HingeComponent
 from crumple.multibody.answer.solved import HingeHistory
 from crumple.result import CrushSummary, HingeSummary, crush_summary
 from crumple.result.crush import BENT, MOVED, StretchSummary, slip_work, stretch_summary
 from crumple.structure import Structure
 from crumple.structure.hinges.automatic import lengthens
+
+SAME = 1e-9
+"""Relative difference of shortenings that is rounding."""
 
 
 def crush_of(structure: Structure, history: HingeHistory) -> CrushSummary | None:
@@ -24,8 +28,7 @@ def crush_of(structure: Structure, history: HingeHistory) -> CrushSummary | None
     if spatial is None or Freedom.AXIAL not in spatial.freedoms:
         return None
     slip = spatial.components[spatial.freedoms.index(Freedom.AXIAL)]
-    stop = slip.record.stop_negative
-    stroke = None if stop is None else stop.rotation
+    stroke = _stroke(slip)
     found = crush_summary(
         history.values("slip.x.travel"),
         history.values("slip.x.force"),
@@ -35,6 +38,20 @@ def crush_of(structure: Structure, history: HingeHistory) -> CrushSummary | None
     )
     unasked = lengthens(structure, history.hinge.member)
     return None if unasked and found.efficiency <= MOVED else replace(found, law=slip.origin)
+
+
+def _stroke(slip: HingeComponent) -> float | None:
+    """Shortening [m] at which folds close: where the force begins to rise up to a stop, else the stop."""
+    stop, curve = slip.record.stop_negative, slip.record.negative
+    rising = np.flatnonzero(np.diff(curve.moment) > 0.0)
+    if stop is None or not rising.size:
+        return None if stop is None else stop.rotation
+    start, end = curve.rotation[rising[-1]], curve.rotation[rising[-1] + 1]
+    # what yields along the member before it folds is no part of the curve
+    spread = () if slip.spread is None else slip.spread.shortening[0]
+    before = float(spread[-1]) if len(spread) else 0.0
+    closes = abs(end + before - stop.rotation) <= SAME * stop.rotation
+    return stop.rotation - float(end - start) if closes else stop.rotation
 
 
 def _stretch_of(structure: Structure, history: HingeHistory) -> StretchSummary | None:

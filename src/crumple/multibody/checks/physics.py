@@ -336,7 +336,7 @@ def closed_crush_zones(structure: Structure, solved: Solved) -> Iterator[Caution
             f"hinge {history.hinge.name}",
             f"Member {history.hinge.member} bottomed out at hinge {history.hinge.name}: it is crushed by "
             f"{format_quantity(crush.length, 'm', 3)}, and its folds are closed at "
-            f"{format_quantity(crush.stroke, 'm', 3)}. The forces from then on are those of the stop.",
+            f"{format_quantity(crush.stroke, 'm', 3)}. The force rises from then on, to that of a stop.",
         )
 
 

@@ -25,11 +25,13 @@ from crumple.result import Caution
 from crumple.section import AXES, RectangularTube, half_fold_length
 from crumple.structure import Structure, plastic_hinges
 from crumple.structure.hinges.asked import automatic_of, folds_at_ends
+from crumple.structure.hinges.corner_laws import corner_laws
+from crumple.structure.hinges.lengthening.nodes_met import nodes_met
 from crumple.structure.hinges.runs.straight_runs import straight_run
 from crumple.structure.hinges.spatial_hinges import interaction_of
 from crumple.structure.hinges.struck_folds import left_by, undented_tubes
 from crumple.structure.keys.motion import Support
-from crumple.structure.keys.obstacles import CylinderObstacle, Obstacle, gap
+from crumple.structure.keys.obstacles import CylinderObstacle, Obstacle, SphereObstacle, gap
 from crumple.structure.struck_places import struck_places
 from crumple.units import format_quantity
 
@@ -209,6 +211,21 @@ def struck_near_ends(structure: Structure, solved: Solved | None = None) -> Iter
                 f"fold fits beside that of the end (half length {fold * 1e3:.3g} mm): no dent is modelled "
                 "there, and the force may be too large. Solve with shells to see it."
             )
+        spec = structure.obstacles[name]
+        if name in touched and isinstance(spec, CylinderObstacle | SphereObstacle) and spec.dents:
+            for node in _corners_met(structure, spec):
+                yield (
+                    f"Obstacle {name} meets corner {node}: no dent is modelled at corners, and the force may "
+                    "be too large (at a bend of 8 deg in a hat a pole went 11 mm into the walls in shells). "
+                    "Solve with shells to see it."
+                )
+
+
+def _corners_met(structure: Structure, obstacle: Obstacle) -> Iterator[str]:
+    """Mitred corners of automatic hinges that an obstacle meets first."""
+    for node, _ in nodes_met(structure, obstacle):
+        if node in corner_laws(structure):
+            yield node
 
 
 def undented(structure: Structure, solved: Solved) -> Iterator[str]:

@@ -285,3 +285,23 @@ def test_a_pole_that_strikes_too_near_the_end_of_a_tube_to_dent_it_is_named(at, 
     assert all(f"strikes member beam {place}, where no fold fits" in text for text in texts)
     run = solve_multibody(whole, Run(0.04, 1e-3))
     assert [text for text in run.warnings if "no dent is modelled" in text] == texts
+
+
+@pytest.mark.parametrize(
+    ("keys", "named"), [({}, True), ({"dents": False}, False), ({"hinges": None}, False)]
+)
+def test_a_pole_that_meets_a_corner_is_named(keys, named):
+    """A kink of 11 degrees; hinges of the input's own have no law of the corner."""
+    nodes = {"a": (0.0, 0.0, 0.0), "b": (0.5, 0.0, 0.1), "c": (1.0, 0.0, 0.1)}
+    members = {
+        name: {"nodes": (name[0], name[1]), "section": "tube", "material": "steel"} for name in ("ab", "bc")
+    }
+    supports = {name: {"node": node, "fix": "all"} for name, node in (("left", "a"), ("right", "c"))}
+    obstacle = {key: value for key, value in keys.items() if key != "hinges"}
+    pole = POLE | DOWN | {"point": (0.5, 0.0, 0.22)} | obstacle
+    hinges = keys.get("hinges", "auto")
+    whole = structure(
+        nodes=nodes, members=members, supports=supports, obstacles={"pole": pole}, hinges=hinges
+    )
+    texts = [text for text in struck_near_ends(whole) if "meets corner b: no dent" in text]
+    assert len(texts) == named

@@ -229,7 +229,7 @@ def test_an_elastic_member_that_shortens_at_one_hinge_shortens_at_all_of_them_ov
         for part in hinge.spatial.components
         if part.freedom.name == "AXIAL"
     ]
-    assert stops == pytest.approx([0.73 * 1.0] * 3)
+    assert stops == pytest.approx([0.9 * 1.0] * 3)
 
 
 def test_joints_between_an_end_and_the_fold_there_do_not_yield():
