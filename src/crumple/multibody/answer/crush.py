@@ -48,7 +48,7 @@ def _stroke(slip: HingeComponent) -> float | None:
         return None if stop is None else stop.rotation
     start, end = curve.rotation[rising[-1]], curve.rotation[rising[-1] + 1]
     # what yields along the member before it folds is no part of the curve
-    spread = () if slip.spread is None else slip.spread.shortening[0]
+    spread = np.zeros(0) if slip.spread is None else slip.spread.shortening[0]
     before = float(spread[-1]) if len(spread) else 0.0
     closes = abs(end + before - stop.rotation) <= SAME * stop.rotation
     return stop.rotation - float(end - start) if closes else stop.rotation
