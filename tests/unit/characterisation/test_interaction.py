@@ -77,6 +77,29 @@ def test_a_fold_about_a_diagonal_that_softens_as_a_hinge_does_has_no_error():
     assert found["oblique_45_deg"] == "coupling section work +0% to 10 deg, +0% to 30 deg"
 
 
+def test_the_edge_is_relieved_less_where_both_axes_do_not_do_the_same_work():
+    """A square tube that is half as strong about z: works as 2 to 1 at 45 degrees, so that q = 0.8."""
+    plain, half = softening(), softening(0.5)
+    outline = plastic_interaction(TUBE, STEEL).moment_curve()
+    shares, turn = outline / np.abs(outline).max(axis=0), math.sqrt(0.5)
+    relieved = 1.0 - 0.8**4 * edge_relief(TUBE)
+    measure = turn * float((shares @ [1.0, 0.5]).max()) * relieved / math.hypot(1.0, 0.5)
+    about_y = np.interp(measure * math.hypot(1.0, 0.5) * ROTATION, ROTATION, plain.moment)
+    # half of the rotation about y counts about z, with the capacity of z
+    about_z = np.interp(measure / 0.5 * math.hypot(0.5, 0.25) * ROTATION, ROTATION, half.moment)
+    moment = turn * (shares @ np.array([about_y, about_z])).max(axis=0)
+    steps = np.diff(ROTATION) * (moment[1:] + moment[:-1]) / 2.0
+    oblique = LawCurve(ROTATION, moment, np.concatenate([[0.0], np.cumsum(steps)]))
+
+    def solved(model: Combined) -> LawCurve:
+        if model.angle == pytest.approx(math.pi / 4.0):
+            return oblique
+        return half if model.angle > 1.0 else plain
+
+    found = interaction_errors(Bending(TUBE, STEEL), solved)
+    assert found["oblique_45_deg"] == "coupling section work +0% to 10 deg, +0% to 30 deg"
+
+
 def test_round_sections_have_no_oblique_axis():
     found = interaction_errors(Bending(CircularTube(0.05, 0.0015), STEEL), lambda model: softening())
     assert set(found) == {"axial_compression", "axial_tension", "axial_fixed_ratio"}
