@@ -71,6 +71,7 @@ BENDING: Registry[LawType] = Registry(
         "oblique": "crumple.hinge.bending.oblique:ObliqueLaw",
         "circular": "crumple.hinge.bending.circular:CircularLaw",
         "folded_profile": "crumple.hinge.bending.profiles.folded_profile:FoldedProfileLaw",
+        "folded_plates": "crumple.hinge.bending.profiles.folded_plates:FoldedPlatesLaw",
         "mitred_corner": "crumple.hinge.corner.mitred_corner:MitredCornerLaw",
         "mitred_corner_across": "crumple.hinge.corner.mitred_corner_across:MitredCornerAcrossLaw",
         "measured": "crumple.hinge.measured.measured_law:MeasuredLaw",
@@ -93,6 +94,8 @@ DEFAULT_BENDING = {
     "closed_hat": "folded_profile",
 }
 """Formula of a hinge without a law, by the kind of its section."""
+FLAT_WALLS = "folded_plates"
+"""That of any other section of flat walls, and of these about another axis."""
 Fold = Literal["free", "clamped"]
 """Whether a fold lies between joints and clamps, or beside one, which keeps the section in shape."""
 FOLD_BENDING: dict[Fold, dict[str, str]] = {

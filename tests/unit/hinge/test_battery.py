@@ -36,6 +36,7 @@ from crumple.hinge.measured.law_file import stored_law, write_law
 from crumple.material import CowperSymonds, Material
 from crumple.material.hardening.swift import Swift
 from crumple.section import Channel, CircularTube, ClosedHat, Hat, RectangularTube
+from crumple.section.shapes.angle import Angle
 from crumple.section.wall_section import outline_section
 
 ERROR = 1e-4
@@ -97,10 +98,12 @@ OPTIONS = {
         {"rolling_weight": 0.0},
         {"after_jamming": "stop"},
     ],
+    "folded_plates": [{}, {}],
 }
 ASYMMETRIC = {
     ("table", 1),
     *(("folded_profile", number) for number in range(4)),
+    ("folded_plates", 0),
     ("hardening_section", 0),
     *(("mitred_corner", number) for number in range(6)),
 }
@@ -171,6 +174,8 @@ SECTIONS = {
     ("folded_profile", 1): lambda s: Channel(s.width, s.depth, sheet(s), lip=0.2 * s.depth),
     ("folded_profile", 2): lambda s: Hat(s.width, s.depth, sheet(s), 0.3 * s.width),
     ("folded_profile", 3): lambda s: ClosedHat(s.width, s.depth, sheet(s), 0.3 * s.width),
+    ("folded_plates", 0): lambda s: Angle(s.width, s.depth, sheet(s)),
+    ("folded_plates", 1): lambda s: rectangular_walls(s.width, s.depth, sheet(s)),
     ("hardening_section", 0): lambda s: Hat(s.width, s.depth, sheet(s), 0.3 * s.width),
     ("hardening_section", 1): lambda s: rectangular_walls(s.width, s.depth, sheet(s)),
 }

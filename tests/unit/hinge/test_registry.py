@@ -17,6 +17,7 @@ def test_laws_are_found_by_the_files_of_their_folder():
         "constant",
         "estimate",
         "file",
+        "folded_plates",
         "folded_profile",
         "hardening_section",
         "hardening_tube",

@@ -5,20 +5,16 @@
 with M_p the plastic moment of the section, and M_K the Kecman-type law of the rectangular tube that has the
 outer width, the outer depth and the thickness of the section.  The scaling is ours; no source supports it.
 Walls that buckle before they yield, and folds of open profiles, may carry far less.  If no such tube exists,
-the plastic moment is held; so it is by a closed hat that is bent sideways, whose edge in compression are two
-sheets, if they are stocky (EN 1993-1-1, table 5.2, class 2): with the thickness 2t and the outstand c
-
-    c <= 10 (2t) sqrt(235 MPa/s_y)
+the plastic moment is held.
 
 `AutoLaw` is the law of a section: the formula of its shape, else this estimate.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, cast
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -30,6 +26,7 @@ from crumple.hinge.rate import HingeRate, hinge_rate, rate_factor
 from crumple.hinge.registry import (
     DEEP,
     DEFAULT_BENDING,
+    FLAT_WALLS,
     FOLD_BENDING,
     HARDENING_BENDING,
     HARDENING_SECTION,
@@ -42,21 +39,11 @@ from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, RectangularTube, Section
 
-if TYPE_CHECKING:
-    from crumple.section.shapes.closed_hat import ClosedHat
-
 SOURCE = Source(
     "plastic moment of the section, softening of a rectangular tube of the same outer size",
     Trust.ESTIMATED,
     "not checked for this section; a law from shells (crumple characterise) replaces it",
 )
-
-
-OUTSTAND = 10.0
-"""Outstand over its thickness up to which a section reaches its plastic moment, at a yield strain of
-`YIELD_STRAIN`: class 2 of EN 1993-1-1, table 5.2."""
-YIELD_STRAIN = 235e6 / 210e9
-"""Yield strain for which that table is written."""
 
 
 @dataclass(frozen=True)
@@ -105,11 +92,8 @@ class EstimatedLaw:
             Axis of bending.
         """
         plastic = material.yield_stress * section.plastic_section_modulus(axis)
-        stocky = axis == "z" and section.kind == "closed_hat" and _has_stocky_edges(section, material)
-        tube = None if stocky else _tube_around(section, material, axis)
-        if stocky:
-            basis = "the two sheets of each flange do not buckle: no softening"
-        elif tube is None:
+        tube = _tube_around(section, material, axis)
+        if tube is None:
             basis = "no rectangular tube lies around the section: no softening"
         else:
             basis = "the softening is that of the rectangular tube around the section"
@@ -182,10 +166,10 @@ def automatic_type(
     harder = HARDENING_BENDING if hardens(material) or section.kind in own else {}
     if hardens(material) and section.kind not in HARDENING_BENDING:
         return HARDENING_SECTION
-    for laws in (own, harder, DEFAULT_BENDING):
-        name = laws.get(section.kind)
-        if name is None:
-            continue
+    names = [laws[section.kind] for laws in (own, harder, DEFAULT_BENDING) if section.kind in laws]
+    if section.kind not in HARDENING_BENDING:
+        names.append(FLAT_WALLS)
+    for name in names:
         try:
             build(name, section, material, axis)
         except InputError:
@@ -205,13 +189,6 @@ def _laws_of_fold(section: Section, material: Material, axis: Axis, fold: Fold |
 def _is_wide(section: Section, axis: Axis) -> bool:
     flange, depth = section.flange_width(axis), section.bending_depth(axis)
     return isinstance(section, RectangularTube) and flange > DEEP * depth
-
-
-def _has_stocky_edges(section: Section, material: Material) -> bool:
-    hat = cast("ClosedHat", section)
-    together = hat.thickness + (hat.plate_thickness or hat.thickness)
-    strain = math.sqrt(YIELD_STRAIN * material.youngs_modulus / material.yield_stress)
-    return hat.flange <= OUTSTAND * strain * together
 
 
 def _tube_around(section: Section, material: Material, axis: Axis) -> KecmanLaw | None:

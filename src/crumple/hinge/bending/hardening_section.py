@@ -15,6 +15,7 @@ from typing import ClassVar, Self
 
 from crumple.errors import InputError, Problem
 from crumple.hinge.bending.estimate import automatic_type
+from crumple.hinge.bending.profiles.folded_plates import FoldedPlatesLaw
 from crumple.hinge.law import Source, Trust
 from crumple.hinge.registry import build_law
 from crumple.hinge.tube_library.hardening import HardeningEffect, at_yield, hardens
@@ -69,7 +70,9 @@ class HardeningSectionLaw(HardeningTubeLaw):
         formula = build_law(automatic_type(section, plain, axis), section, plain, axis)
         own = formula.validity
         basis = f"{own.basis}; its metal hardens as that of the tube around it, an estimate"
-        validity = replace(own, uncertainty=None, basis=basis)
+        # folding plates that harden were compared with shells, other formulas were not
+        compared = isinstance(formula, FoldedPlatesLaw)
+        validity = replace(own, uncertainty=own.uncertainty if compared else None, basis=basis)
         return cls(formula, _in_tube_around(section, material, axis), validity)
 
 

@@ -70,7 +70,7 @@ class CompressedPlate:
     References
     ----------
     Derived here, constants fitted to shells.  docs/theory/folded_profile.md.
-    Verified in tests/verification/hinge/test_folded_profiles.py.
+    Verified in tests/verification/profiles/test_folded_profiles.py.
     """
 
     sheets: tuple[Sheet, ...]

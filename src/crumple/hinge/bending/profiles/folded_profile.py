@@ -88,7 +88,7 @@ class FoldedProfileLaw:
 
     References
     ----------
-    docs/theory/folded_profile.md.  Verified in tests/verification/hinge/test_folded_profiles.py.
+    docs/theory/folded_profile.md.  Verified in tests/verification/profiles/test_folded_profiles.py.
     """
 
     name: ClassVar[str] = "folded_profile"

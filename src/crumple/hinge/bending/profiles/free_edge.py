@@ -56,7 +56,7 @@ class FreeEdgeMechanism:
     References
     ----------
     Derived here.  docs/theory/folded_profile.md.
-    Verified in tests/verification/hinge/test_folded_profiles.py.
+    Verified in tests/verification/profiles/test_folded_profiles.py.
     """
 
     depth: float

@@ -36,7 +36,7 @@ class ProfileMechanism(FoldMechanism):
 
     References
     ----------
-    docs/theory/folded_profile.md.  Verified in tests/verification/hinge/test_folded_profiles.py.
+    docs/theory/folded_profile.md.  Verified in tests/verification/profiles/test_folded_profiles.py.
     """
 
     compressed_face: float = 0.0
