@@ -67,8 +67,8 @@ class StruckPlace:
 
 
 @dataclass(frozen=True)
-class _Core:
-    """Axis of an obstacle: from `start` to `end` from its centre; the normals of a plane at its edge."""
+class Core:
+    """Axis of what strikes: from `start` to `end` from its centre; the normals of a plane at its edge."""
 
     centre: Floats
     axis: Floats
@@ -194,6 +194,25 @@ def _touches(
     """Where an obstacle touches a member's line first, also beyond its ends; None if it misses it."""
     frame, outline = structure.frame_of(member), structure.section_of(member).outer_outline()
     core = _core(structure.obstacles[obstacle], frame, path)
+    return touch(frame, outline, core, path, obstacle)
+
+
+def touch(
+    frame: Frame, outline: Floats, core: Core, path: Floats | None, obstacle: str
+) -> StruckPlace | None:
+    """Where something with an axis touches a member's line first, also beyond its ends; None if it misses it.
+
+    Parameters
+    ----------
+    frame, outline
+        Of the member.
+    core
+        Axis and radius of what strikes.
+    path
+        Unit vector along which it moves; None: straight to the member.
+    obstacle
+        Its name.
+    """
     normal = cross(frame.x, core.axis)
     sine = float(np.linalg.norm(normal))
     if sine < math.sin(NARROWEST):
@@ -204,36 +223,36 @@ def _touches(
     closing = -float(path @ towards)
     if closing < math.sin(NARROWEST) or any(side @ towards > LEAST for side in core.outwards):
         return None
-    travel = (float(apart @ towards) - core.radius - _reach(frame, outline, towards)) / closing
+    travel = (float(apart @ towards) - core.radius - reach_of(frame, outline, towards)) / closing
     travel = max(0.0, travel)
     apart = apart + travel * path
     along = float(cross(apart, frame.x) @ normal) / sine**2
-    beside = core.radius + _reach(frame, outline, core.axis)
+    beside = core.radius + reach_of(frame, outline, core.axis)
     if along < core.start - beside or along > core.end + beside:
         return None
     station = float(cross(apart, core.axis) @ normal) / sine**2
     return StruckPlace(obstacle, station, travel, tuple(towards.tolist()), sine)
 
 
-def _core(obstacle: Obstacle, frame: Frame, path: Floats | None) -> _Core:
+def _core(obstacle: Obstacle, frame: Frame, path: Floats | None) -> Core:
     """Axis of an obstacle that strikes a member; that of a ball lies across its path and the member."""
     centre, radius = np.asarray(obstacle.point, float), float(getattr(obstacle, "radius", 0.0))
     if isinstance(obstacle, PlaneObstacle) and obstacle.edge is not None:
         sides = (_unit(np.asarray(obstacle.normal)), _unit(np.asarray(obstacle.edge)))
-        return _Core(centre, cross(*sides), 0.0, outwards=sides)
+        return Core(centre, cross(*sides), 0.0, outwards=sides)
     if isinstance(obstacle, CylinderObstacle):
         axis, length = _unit(np.asarray(obstacle.axis)), obstacle.length
         if length is None:
-            return _Core(centre, axis, radius)
+            return Core(centre, axis, radius)
         if path is None or abs(path @ axis) < math.cos(NARROWEST):
-            return _Core(centre, axis, radius, start=0.0, end=length)
+            return Core(centre, axis, radius, start=0.0, end=length)
         # it strikes with its round end
         centre = centre + (length if path @ axis > 0.0 else 0.0) * axis
     across = cross(frame.x, centre - frame.origin if path is None else path)
-    return _Core(centre, _unit(across), radius, start=0.0, end=0.0)
+    return Core(centre, _unit(across), radius, start=0.0, end=0.0)
 
 
-def _reach(frame: Frame, outline: Floats, direction: Floats) -> float:
+def reach_of(frame: Frame, outline: Floats, direction: Floats) -> float:
     """How far a section's outline reaches from the member's line in a direction [m]."""
     return float((outline @ (frame.axes[1:] @ direction)).max())
 

@@ -22,6 +22,7 @@ from crumple.structure.hinges.lengthening.stopped import stopped
 from crumple.structure.hinges.runs.ends import carries_moment, passes_moment
 from crumple.structure.hinges.runs.straight_runs import StraightRun
 from crumple.structure.parts import StructureParts
+from crumple.structure.struck_members import places_struck_by_members
 from crumple.structure.struck_places import struck_places
 
 ASIDE = 0.001
@@ -97,7 +98,7 @@ def candidates_on(
         Bending axes of the candidates: the longest of their folds counts.
     spacing
         Largest distance between candidates [m]; None: only at the ends, at kinks, in the middle of braced
-        members and pushed runs, and where obstacles strike.
+        members and pushed runs, and where obstacles or members strike.
     """
 
     def find() -> Mapping[str, list[Candidate]]:
@@ -127,11 +128,13 @@ def _candidates(
         return
     held = passes_moment(structure, *ends[0], axes), passes_moment(structure, *ends[1], axes)
     pressed = list(_struck(structure, run, half, ends=True))
-    loaded = [at for _, at in pressed if start < at < end]
+    by_members = list(_struck_by_members(structure, run, half))
+    loaded = [at for _, at in (*pressed, *by_members) if start < at < end]
     beside = [_beside(structure, node) for node in run.nodes]
     inside = {fold: _inside(structure, run, axes, fold) for fold in dict.fromkeys(beside)}
     first, last = start + inside[beside[0]], end - inside[beside[1]]
-    struck = [(name, at) for name, at in _struck(structure, run, half, ends=False) if first < at < last]
+    struck = [*_struck(structure, run, half, ends=False), *by_members]
+    struck = [(name, at) for name, at in struck if first < at < last]
     struck = [(f"{name}-struck" if name in (*run.nodes, *run.between) else name, at) for name, at in struck]
     number = 1 if spacing is None else max(1, math.ceil((last - first) / spacing * (1.0 - 1e-9)))
     number = max(number, _least_parts(structure, run, bool(struck), first_held or last_held))
@@ -147,7 +150,9 @@ def _candidates(
     inner = [(str(i), at) for i, at in enumerate(between, 1)]
     taken = [first, *between, last]
     folding = {
-        node for node, at in run.between.items() if any(abs(at - place) <= half for _, place in pressed)
+        node
+        for node, at in run.between.items()
+        if any(abs(at - place) <= half for _, place in (*pressed, *by_members))
     }
     divided = [
         (node, at - ASIDE * half)
@@ -235,6 +240,21 @@ def _struck(
             rubs = structure.obstacles[place.obstacle].friction > 0.0
             at = stretch.along(place.station)
             yield place.obstacle, at + (_aside(run, at, half) if rubs else 0.0)
+
+
+def _struck_by_members(
+    structure: StructureParts, run: StraightRun, half: float
+) -> Iterator[tuple[str, float]]:
+    """Members that strike a run between the ends of its members, and where [m]: beside it where they rub."""
+    contact = structure.member_contact
+    rubs = contact is not None and contact.friction > 0.0
+    taken = set(structure.obstacles)
+    for member, stretch in run.stretches.items():
+        for place in places_struck_by_members(structure, member):
+            at = stretch.along(place.station)
+            if place.obstacle not in taken:
+                taken.add(place.obstacle)
+                yield place.obstacle, at + (_aside(run, at, half) if rubs else 0.0)
 
 
 def _aside(run: StraightRun, at: float, half: float) -> float:
