@@ -17,7 +17,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from crumple.hinge import Coupling, Freedom
+from crumple.hinge import Coupling
 from crumple.multibody.answer.forces import on_second
 from crumple.multibody.answer.poses import SpatialHistory, SpatialPoses
 from crumple.multibody.answer.solved import Solved
@@ -169,17 +169,16 @@ def _is_loaded(structure: Structure, node: str) -> bool:
     return any(at.get(node) for at in others) or any(load.node == node for load in structure.loads)
 
 
-def _bends(joint: PlacedHinge) -> bool:
-    """Whether a point is an elastic joint that bends: some only twist."""
-    return not joint.plastic and (joint.spatial is None or joint.spatial.freedoms != (Freedom.X,))
-
-
 def folds_between(structure: Structure, solved: Solved) -> Iterator[Caution]:
     """Members that yield between their hinges by more than a fold takes before it softens.
 
     The rotation is at least the energy of a joint over its largest moment.
     """
-    joints = {(one.member, one.station): one for one in placed_hinges(structure) if _bends(one)}
+    joints = {
+        (one.member, one.station): one
+        for one in placed_hinges(structure)
+        if not (one.plastic or one.only_twists)
+    }
     turned: dict[str, tuple[float, float]] = {}
     for (member, station), energy in solved.spread.items():
         joint = joints.get((member, station))

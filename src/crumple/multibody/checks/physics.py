@@ -24,7 +24,7 @@ from crumple.multibody.checks.folded_over import folded_over
 from crumple.multibody.checks.names import named
 from crumple.multibody.checks.overloaded import folds_between, overloaded_sections, pressed_folds
 from crumple.multibody.checks.struck import pressed_beyond, struck_cautions
-from crumple.multibody.checks.torque import torques_without_twist
+from crumple.multibody.checks.torque import torque_cautions
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import turned
 from crumple.result import Caution
@@ -105,7 +105,7 @@ def physics_cautions(structure: Structure, solved: Solved, *, slow: Collection[s
         *overloaded_sections(structure, solved),
         *folds_between(structure, solved),
         *pressed_folds(structure, solved),
-        *torques_without_twist(structure, solved),
+        *torque_cautions(structure, solved),
         *fast_nodes(structure, solved, total),
         *impact_losses(structure, solved, total),
         *jammed_folds(solved),

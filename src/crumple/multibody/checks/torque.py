@@ -1,12 +1,16 @@
-"""Members that carry more torque than their section, and whose hinges cannot twist.
+"""Members that carry more torque than their section and cannot twist, and open ones that twist far.
 
 A hinge about bending axes alone carries any torque along its member.  The largest that two outputs in a row
 reach is compared with the plastic torque of the member: of an open section with that of the warping that its
 ends hold.  A member with one hinge that twists carries no more than that takes: so do all elastic members.
+
+Elastic members of open sections have joints that only twist.  An obstacle meets the outline of such a section
+anywhere, while in shells a flange without support gives way, and the web beside it carries the load.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -19,14 +23,60 @@ from crumple.multibody.answer.solved import Solved
 from crumple.multibody.checks.names import named
 from crumple.numeric.rotation import turned
 from crumple.result import Caution
-from crumple.structure import Structure
+from crumple.structure import Structure, placed_hinges
 from crumple.structure.hinges.automatic import twists
 from crumple.structure.hinges.runs.bars import bar_of, is_closed
+from crumple.structure.hinges.runs.straight_runs import straight_run
 from crumple.structure.hinges.shares import warping_span
 from crumple.structure.hinges.spatial_hinges import interaction_of
+from crumple.structure.struck_places import struck_places
 
+TWISTED = math.radians(16.0)
+"""Plastic twist of members between rigid ends up to which their law was compared with shells [rad]."""
 ROUNDED = 1.0 - 1e-9
 """Share of the limit below which a moment is, whatever the rounding of its part along the member."""
+
+
+def torque_cautions(structure: Structure, solved: Solved) -> Iterator[Caution]:
+    """Cautions on torque.
+
+    Parameters
+    ----------
+    structure, solved
+        The structure and the result of its run.
+    """
+    yield from torques_without_twist(structure, solved)
+    yield from twisted_members(structure, solved)
+
+
+def twisted_members(structure: Structure, solved: Solved) -> Iterator[Caution]:
+    """One caution for all open members that an obstacle strikes and that twist further than was compared.
+
+    The plastic twist is at least the energy of the joints over their largest torques.
+    """
+    joints = {(one.member, one.station): one for one in placed_hinges(structure) if one.only_twists}
+    twists_of: dict[str, float] = {}
+    for (member, station), energy in solved.spread.items():
+        joint = joints.get((member, station))
+        if joint is not None and energy.size:
+            twist = float(energy[-1]) / float(joint.record.positive.moment.max())
+            twists_of[member] = twists_of.get(member, 0.0) + twist
+    run = {member: straight_run(structure, member).stretches for member in twists_of}
+    far = {
+        member: twist
+        for member, twist in twists_of.items()
+        if twist > TWISTED and any(struck_places(structure, name) for name in run[member])
+    }
+    if far:
+        most = math.degrees(max(far.values()))
+        text = (
+            f"{named('Member', list(far))} of open section, which an obstacle strikes, "
+            f"{'twists' if len(far) == 1 else 'twist'} by up to {most:.3g} deg: the obstacle presses on the "
+            "outline of the section, in truth on the wall beside a flange that gives way, which twists it "
+            "far less. Hold the rotation of a node beside it about the member, or solve with shells."
+        )
+        for member, twist in far.items():
+            yield Caution("open_member_twists", twist, TWISTED, "rad", f"member {member}", text)
 
 
 def torques_without_twist(structure: Structure, solved: Solved) -> Iterator[Caution]:

@@ -12,8 +12,8 @@ from crumple.hinge import ConstantLaw, Coupling, Form, Freedom, HingeComponent, 
 from crumple.section import Axis, half_fold_length
 from crumple.structure.hinges.corner_laws import corner_laws, corner_name
 from crumple.structure.hinges.elastic_members import yielding_record
-from crumple.structure.hinges.flexibility import tributary_lengths
 from crumple.structure.hinges.joints.placed_hinge import PlacedHinge, direction_of, position_of
+from crumple.structure.hinges.joints.twisting_stretches import twisting_stretches
 from crumple.structure.hinges.places import HingePlace, member_hinge_places
 from crumple.structure.hinges.runs.bars import rigid_along
 from crumple.structure.hinges.runs.straight_runs import StraightRun
@@ -130,21 +130,23 @@ class _Beside:
     def twist_of_all(self, points: list[float]) -> Iterator[PlacedHinge]:
         """Joints that only twist, of a bar of an open section; each has its part of the length of the bar.
 
-        They lie in the middle of the bar and at its ends, between the points at which it bends [m].
+        They lie in the middle of its stretches and at its ends, between the points at which it bends [m].
         """
         structure, bar = self.structure, self.bar
         gaps = [(a + b) / 2.0 for a, b in pairwise(points) if b - a > SAME_PLACE * bar.length]
-        # two may be equally near but for rounding: then the first
-        middle = min(gaps, key=lambda at: (round(abs(at / bar.length - 0.5), 9), at))
-        places = sorted({gaps[0], middle, gaps[-1]})
-        lengths = tributary_lengths(places, bar.length, rigid_along(structure, bar))
-        span, held_ends = warping_span(structure, bar)
         metal = structure.section_of(bar.first), structure.material_of(bar.first)
-        like = yielding_record(structure, bar.first, "y", span, span)
-        for i, (along, length) in enumerate(zip(places, lengths, strict=True), 1):
-            twist = twist_component(
-                like, metal, HingeShares({}, 1.0, length, length, length, span, held_ends)
-            )
+        like = yielding_record(structure, bar.first, "y", bar.length, bar.length)
+        found = []
+        for stretch in twisting_stretches(structure, bar):
+            inside = [at for at in gaps if stretch.start < at < stretch.end]
+            middle = 0.5 * (stretch.start + stretch.end)
+            # two may be equally near but for rounding: then the first
+            nearest = min(inside, key=lambda at: (round(abs(at - middle) / bar.length, 9), at))
+            places = sorted({nearest, *({gaps[0], gaps[-1]} & set(inside))})
+            found += [(at, length, stretch) for at, length in stretch.shared(places)]
+        for i, (along, length, stretch) in enumerate(found, 1):
+            shares = HingeShares({}, 1.0, length, length, length, stretch.span, stretch.held_ends)
+            twist = twist_component(like, metal, shares)
             member = bar.member_at(along)
             station = bar.stretches[member].station(along)
             # no name of the input has a blank

@@ -63,6 +63,11 @@ class PlacedHinge:
     laws: Mapping[Axis, HingeLaw] = field(default_factory=dict)
     plastic: bool = True
 
+    @property
+    def only_twists(self) -> bool:
+        """Whether it is an elastic joint for the twist of a member of an open section."""
+        return not self.plastic and self.spatial is not None and self.spatial.freedoms == (Freedom.X,)
+
 
 def position_of(structure: StructureParts, place: HingePlace, record: SpatialHingeRecord | None) -> Floats:
     """Where a hinge lies at the start, global [m], shape (3,).
