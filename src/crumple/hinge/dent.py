@@ -21,7 +21,9 @@ Rectangular tube of width b and depth h along the force, under a pole:
 
 with the rise and f of shells of four tubes on a rigid floor (`RISE`, `CRUSHED`); m = exp(-2.8 d/h) is the
 moment of two slowly pressed tubes in shells over the depth of their dents.  The middle line moves by
-d (b + h/2)/(2 (b + h)) in the mean, if the upper half of the webs shortens evenly.  A ball meets the middle
+d (b + h/2)/(2 (b + h)) in the mean, if the upper half of the webs shortens evenly.  A tube of cells is dented
+cell by cell: h is the depth of one in f, which goes on into the next one (`NEXT_CELL`), and the force has the
+factor w/2, w the number of webs along it, inner ones by the square of their wall.  A ball meets the middle
 of a wall, which gives way at far smaller forces: it has no law here.
 
 Range, sources and comparison with shells: docs/theory/dents.md.
@@ -31,6 +33,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -44,6 +47,11 @@ CRUSHED = (
     (27.0, 27.0, 31.0, 30.0, 27.0, 26.0, 34.0, 40.0, 40.0),
 )
 """Depth of a dent in a rectangular tube over its own depth, and force over flow stress and wall squared."""
+NEXT_CELL = (
+    (0.6, 0.75, 0.9, 1.5, 1.75),
+    (46.0, 51.0, 78.0, 82.0, 105.0),
+)
+"""The same of tubes of several cells along the force, over the depth of a cell: mean of four in shells."""
 RISE = 0.15
 """Force of its first rise over Young's modulus, wall and depth."""
 WEAKENS = 2.8
@@ -89,7 +97,19 @@ class Dent:
         return np.asarray(work[piece] + into * (self.force[piece] + self.at(depth)) / 2.0)
 
 
-def dent_of(section: CircularTube | RectangularTube, material: Material, depth: float) -> Dent:
+class Cells(NamedTuple):
+    """Cells of a tube along a force, and webs along it, inner ones by the square of their wall."""
+
+    along: int
+    webs: float
+
+
+ONE_CELL = Cells(1, 2.0)
+
+
+def dent_of(
+    section: CircularTube | RectangularTube, material: Material, depth: float, cells: Cells = ONE_CELL
+) -> Dent:
     """Dent of a tube.
 
     Parameters
@@ -98,18 +118,21 @@ def dent_of(section: CircularTube | RectangularTube, material: Material, depth: 
         Of the tube.
     depth
         Of the section along the force [m].
+    cells
+        Of a rectangular tube.
     """
     stress, wall = material.flow_stress, section.thickness
-    deepest = depth - 2.0 * wall
+    deepest = depth - (cells.along + 1.0) * wall
     depths = deepest * np.linspace(0.0, 1.0, SAMPLES) ** 2
     if isinstance(section, CircularTube):
         forces = dent_force(np.maximum(depths, SHALLOWEST), wall, stress)
         moves = round_walls_move(depths, (depth - wall) / 2.0)
     else:
         width = section.width + section.depth - depth
-        folds = stress * wall**2 * np.interp(depths / depth, *CRUSHED)
+        curve = np.hstack([CRUSHED, NEXT_CELL]) if cells.along > 1 else np.array(CRUSHED)
+        folds = stress * wall**2 * np.interp(depths * cells.along / depth, *curve)
         rises = RISE * material.youngs_modulus * wall * np.maximum(depths, SHALLOWEST)
-        forces = np.minimum(rises, folds)
+        forces = np.minimum(rises, folds) * cells.webs / 2.0
         moves = depths * (width + depth / 2.0) / (2.0 * (width + depth))
     return Dent(
         np.append(depths, (1.0 + JAMS_WITHIN) * deepest),
@@ -154,7 +177,7 @@ def round_walls_move(depth: Floats, radius: float) -> Floats:
 
 def left_in_bending(
     section: CircularTube | RectangularTube,
-    material: Material,
+    dent: Dent,
     depth: float,
     moment: float,
     spans: tuple[float, float],
@@ -164,8 +187,8 @@ def left_in_bending(
 
     Parameters
     ----------
-    section, material
-        Of the tube.
+    section, dent
+        The tube, and its dent.
     depth
         Of the section along the force [m].
     moment
@@ -182,7 +205,6 @@ def left_in_bending(
     """
     here = sum(1.0 / span for span in spans)
     there = sum(carries / span for carries, span in zip(held, spans, strict=True))
-    dent = dent_of(section, material, depth)
 
     def too_strong(deep: float) -> float:
         bends = moment * (left_by_dent(section, deep, depth) * here + there)

@@ -67,7 +67,7 @@ def test_the_walls_of_a_round_tube_move_to_the_chord():
 @pytest.mark.parametrize("section", [TUBE, RectangularTube(80e-3, 60e-3, 1.5e-3)])
 def test_a_dent_grows_until_the_tube_bends(section, held):
     spans, moment = (0.4, 0.6), 2500.0
-    left = left_in_bending(section, STEEL, 60e-3, moment, spans, held)
+    left = left_in_bending(section, dent_of(section, STEEL, 60e-3), 60e-3, moment, spans, held)
     depths = np.linspace(0.0, 29e-3, 20_001)
     shares = np.array([left_by_dent(section, depth, 60e-3) for depth in depths])
     bends = sum((shares + carries) / span for carries, span in zip(held, spans, strict=True)) * moment
@@ -77,5 +77,5 @@ def test_a_dent_grows_until_the_tube_bends(section, held):
 
 
 def test_short_spans_are_dented_to_the_middle():
-    left = left_in_bending(TUBE, STEEL, 60e-3, 2500.0, (0.05, 0.05), (True, True))
+    left = left_in_bending(TUBE, dent_of(TUBE, STEEL, 60e-3), 60e-3, 2500.0, (0.05, 0.05), (True, True))
     assert left == pytest.approx(math.cos(math.pi / 4.0) - 0.5)

@@ -29,7 +29,7 @@ from crumple.structure.hinges.corner_laws import corner_laws
 from crumple.structure.hinges.lengthening.nodes_met import nodes_met
 from crumple.structure.hinges.runs.straight_runs import straight_run
 from crumple.structure.hinges.spatial_hinges import interaction_of
-from crumple.structure.hinges.struck_folds import left_by, undented_tubes
+from crumple.structure.hinges.struck_folds import left_by, struck_without_dents, undented_tubes
 from crumple.structure.keys.motion import Support
 from crumple.structure.keys.obstacles import CylinderObstacle, Obstacle, SphereObstacle, gap
 from crumple.structure.struck_places import struck_places
@@ -213,6 +213,12 @@ def struck_near_ends(structure: Structure, solved: Solved | None = None) -> Iter
             )
         spec = structure.obstacles[name]
         if name in touched and isinstance(spec, CylinderObstacle | SphereObstacle) and spec.dents:
+            for member in struck_without_dents(structure, name):
+                yield (
+                    f"Obstacle {name} strikes member {member} ({structure.section_of(member).title}), whose "
+                    "walls have no dent in the model: the force may be too large. Solve with shells to "
+                    "see it."
+                )
             for node in _corners_met(structure, spec):
                 yield (
                     f"Obstacle {name} meets corner {node}: no dent is modelled at corners, and the force may "

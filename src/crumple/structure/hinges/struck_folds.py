@@ -8,17 +8,18 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
 from crumple.hinge import HingeLaw
 from crumple.hinge.bending.dented import DentedLaw, WrappedLaw, wraps
 from crumple.hinge.bending.pressed import Press, PressedLaw
-from crumple.hinge.dent import Dent, dent_of, denting_force, left_by_dent, left_in_bending
+from crumple.hinge.dent import ONE_CELL, Cells, Dent, dent_of, denting_force, left_by_dent, left_in_bending
 from crumple.hinge.registry import AUTO
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
-from crumple.section import AXES, Axis, CircularTube, RectangularTube, half_fold_length
+from crumple.section import AXES, Axis, CircularTube, RectangularTube, Section, half_fold_length
 from crumple.structure.hinges.asked import automatic_of
 from crumple.structure.hinges.automatic import strikes_on
 from crumple.structure.hinges.corner_laws import corner_laws
@@ -32,6 +33,9 @@ from crumple.structure.keys.law import LawKeys, LawReference
 from crumple.structure.keys.obstacles import CylinderObstacle, SphereObstacle
 from crumple.structure.parts import StructureParts
 from crumple.structure.struck_places import KINK, StruckPlace, struck_places, travel_to_joints
+
+if TYPE_CHECKING:
+    from crumple.section import MultiCellTube
 
 TOGETHER = 1e-3
 """Difference of the travels of an obstacle to tubes that it strikes at the same time [m]."""
@@ -80,7 +84,7 @@ def with_dent(
     bent = _Bent(ends, structure.frame_of(member).axis(axis), tube.outwards)
     held = _held(structure, bent, strike, moment)
     spans = strike.spans[0] + ends[0].further, strike.spans[1] + ends[1].further
-    left = left_in_bending(section, material, tube.depth, moment, spans, held)
+    left = left_in_bending(section, tube.dent, tube.depth, moment, spans, held)
     pole = structure.obstacles[tube.obstacle]
     if isinstance(section, CircularTube) and isinstance(pole, CylinderObstacle):
         most = 2.0 * half_fold_length(section, axis) / (pole.radius + tube.depth / 2.0)
@@ -285,6 +289,22 @@ def undented_tubes(structure: StructureParts, obstacle: str) -> list[tuple[str, 
     return found
 
 
+def struck_without_dents(structure: StructureParts, obstacle: str) -> list[str]:
+    """Members with automatic hinges that an obstacle strikes first and whose section has no law of dents.
+
+    Parameters
+    ----------
+    structure, obstacle
+        The obstacle's name.
+    """
+    if not structure.obstacles[obstacle].dents:
+        return []
+    struck = (member for member, _ in _struck_first(structure, obstacle))
+    return [
+        one for one in struck if automatic_of(structure, one) is not None and _walls(structure, one) is None
+    ]
+
+
 def _struck_first(structure: StructureParts, obstacle: str) -> Iterator[tuple[str, StruckPlace]]:
     """Members that an obstacle strikes first, one for each straight run; none if it meets a joint before."""
     places = {
@@ -312,30 +332,45 @@ def _dented(structure: StructureParts, member: str, place: StruckPlace) -> Dente
     if section is None or place.sine < ACROSS:
         return None
     if isinstance(section, CircularTube):
-        depth = section.diameter
+        depth, depth_along_y = section.diameter, False
     else:
         across = structure.frame_of(member).axes[1:] @ outwards
         # of a hat the crown alone
-        tube = isinstance(structure.section_of(member), RectangularTube)
-        struck = np.abs(across) if tube else across[1:]
+        hat = structure.section_of(member).kind == "closed_hat"
+        struck = across[1:] if hat else np.abs(across)
         if isinstance(structure.obstacles[place.obstacle], SphereObstacle) or struck.max() < SQUARE:
             return None
-        depth = float((section.width, section.depth)[int(np.argmax(np.abs(across)))])
+        depth_along_y = abs(across[0]) > abs(across[1])
+        depth = float(section.width if depth_along_y else section.depth)
     nodes = _nodes_in(structure, member, place.station)
-    dent = dent_of(section, _metal(structure, member), depth)
+    cells = _cells(structure.section_of(member), "y" if depth_along_y else "z")
+    dent = dent_of(section, _metal(structure, member), depth, cells)
     return DentedTube(place.obstacle, member, place.station, nodes, outwards, depth, dent)
 
 
 def _walls(structure: StructureParts, member: str) -> CircularTube | RectangularTube | None:
-    """The tube whose walls an obstacle dents: of a closed hat crown and webs; None of other sections."""
+    """The tube whose walls an obstacle dents: of a closed hat crown and webs, of cells the outer walls.
+
+    None of other sections.
+    """
     section = structure.section_of(member)
     if isinstance(section, CircularTube | RectangularTube):
         return section
-    from crumple.section import ClosedHat  # noqa: PLC0415  (its walls take time to load)
+    from crumple.section import ClosedHat, MultiCellTube  # noqa: PLC0415  (their walls take time to load)
 
-    if isinstance(section, ClosedHat):
+    if isinstance(section, ClosedHat | MultiCellTube):
         return RectangularTube(section.width, section.depth, section.thickness)
     return None
+
+
+def _cells(section: Section, along: Axis) -> Cells:
+    """Cells and webs of a section along a force."""
+    if section.kind != "multi_cell_tube":
+        return ONE_CELL
+    tube = cast("MultiCellTube", section)
+    count, across = (tube.columns, tube.rows) if along == "y" else (tube.rows, tube.columns)
+    inner = (tube.inner_thickness or tube.thickness) / tube.thickness
+    return Cells(count, 2.0 + (across - 1) * inner**2)
 
 
 def _metal(structure: StructureParts, member: str) -> Material:

@@ -305,3 +305,24 @@ def test_a_pole_that_meets_a_corner_is_named(keys, named):
     )
     texts = [text for text in struck_near_ends(whole) if "meets corner b: no dent" in text]
     assert len(texts) == named
+
+
+@pytest.mark.parametrize(
+    ("section", "keys", "named"),
+    [
+        ({"type": "channel", "width": 0.04, "depth": 0.06, "thickness": 0.002}, {}, True),
+        ({"type": "channel", "width": 0.04, "depth": 0.06, "thickness": 0.002}, {"dents": False}, False),
+        ({"type": "multi_cell_tube", "width": 0.06, "depth": 0.04, "thickness": 0.002}, {}, False),
+        ({"type": "square_tube", "side": 0.04, "thickness": 0.002}, {}, False),
+    ],
+)
+def test_a_section_that_has_no_dent_is_named(section, keys, named):
+    supports = {name: {"node": node, "fix": "all"} for name, node in (("left", "a"), ("right", "b"))}
+    members = {"beam": {"nodes": ("a", "b"), "section": "own", "material": "steel", "up": (0.0, 0.0, 1.0)}}
+    pole = POLE | DOWN | {"point": (0.4, 0.0, 0.2)} | keys
+    whole = structure(
+        members=members, sections={"own": section}, supports=supports, obstacles={"pole": pole}, hinges="auto"
+    )
+    texts = [text for text in struck_near_ends(whole) if "have no dent in the model" in text]
+    assert len(texts) == named
+    assert all("Obstacle pole strikes member beam (channel 40 x 60 x 2 mm)" in text for text in texts)

@@ -8,7 +8,7 @@ import pytest
 from crumple import loads
 from crumple.hinge.bending.dented import DentedLaw, WrappedLaw
 from crumple.hinge.bending.pressed import PressedLaw
-from crumple.hinge.dent import left_in_bending
+from crumple.hinge.dent import dent_of, left_in_bending
 from crumple.hinge.registry import build_law
 from crumple.section import RectangularTube, half_fold_length
 from crumple.structure import dented_tubes, hinge_places, law_uses, plastic_hinges
@@ -239,13 +239,10 @@ def test_a_struck_hat_bends_with_its_crown_compressed(roll):
     section, strike = structure.section_of("beam"), strikes_on(structure, "beam")["beam-pole"]
     moments = {sense: float(law.law.moment_capacity(0.0, sense)) for sense in (1, -1)}
     tube = RectangularTube(section.width, section.depth, section.thickness)
-    left = {
-        sense: left_in_bending(
-            tube, structure.material_of("beam"), tube.depth, moment, strike.spans, strike.held
-        )
-        for sense, moment in moments.items()
-    }
-    assert law.left == left[-1] != left[1]
+    dent = dent_of(tube, structure.material_of("beam"), tube.depth)
+    spans = tube.depth, strike.spans, strike.held
+    left = [left_in_bending(tube, dent, spans[0], moments[sense], *spans[1:]) for sense in (1, -1)]
+    assert law.left == left[1] != left[0]
 
 
 def _left(structure):
@@ -273,8 +270,12 @@ def test_an_end_carries_no_more_than_what_holds_it(thickness):
     # the beam's first node is on the post, the last one clamped
     share = _largest(law) / moment
     assert share < 0.5
-    assert left == pytest.approx(left_in_bending(section, steel, 60e-3, moment, strike.spans, (share, 1.0)))
-    assert left > 1.05 * left_in_bending(section, steel, 60e-3, moment, strike.spans, (1.0, 1.0))
+    assert left == pytest.approx(
+        left_in_bending(section, dent_of(section, steel, 60e-3), 60e-3, moment, strike.spans, (share, 1.0))
+    )
+    assert left > 1.05 * left_in_bending(
+        section, dent_of(section, steel, 60e-3), 60e-3, moment, strike.spans, (1.0, 1.0)
+    )
 
 
 LIMB = "  limb: {nodes: [left, out], section: round, material: steel}\n"
@@ -304,7 +305,9 @@ def test_a_limb_with_a_free_end_holds_no_beam(more, held):
     law = build_law("clamped_tube", structure.section_of("post"), structure.material_of("post"))
     section, steel = structure.section_of("beam"), structure.material_of("beam")
     shares = (1.0 if held else _largest(law) / moment, 1.0)
-    assert left == pytest.approx(left_in_bending(section, steel, 60e-3, moment, strike.spans, shares))
+    assert left == pytest.approx(
+        left_in_bending(section, dent_of(section, steel, 60e-3), 60e-3, moment, strike.spans, shares)
+    )
 
 
 @pytest.mark.parametrize(("above", "closes"), [(True, True), (False, False)])
@@ -324,7 +327,9 @@ def test_a_corner_carries_the_moment_of_its_law_in_its_sense(above, closes):
     assert moments[1] > 2.0 * moments[0]
     share = moments[0 if closes else 1] / moment
     section, steel = structure.section_of("beam"), structure.material_of("beam")
-    assert left == pytest.approx(left_in_bending(section, steel, 60e-3, moment, strike.spans, (share, 1.0)))
+    assert left == pytest.approx(
+        left_in_bending(section, dent_of(section, steel, 60e-3), 60e-3, moment, strike.spans, (share, 1.0))
+    )
 
 
 KINKED = """
@@ -374,10 +379,12 @@ def test_a_tube_spans_beyond_a_kink_that_nothing_holds(right, drop, fix, more, g
     # the mitre, where nothing keeps it in shape, carries less than the hat
     mitre = [hinge.law for hinge in plastic_hinges(structure) if hinge.name == "corner-kink"]
     held = (1.0, min([_largest(law) / moment for law in mitre], default=1.0))
-    deep = left_in_bending(tube, steel, 60e-3, moment, strike.spans, held)
+    deep = left_in_bending(tube, dent_of(tube, steel, 60e-3), 60e-3, moment, strike.spans, held)
     assert (left > 1.2 * deep) == goes_on
     if goes_on:
-        assert left == pytest.approx(left_in_bending(tube, steel, 60e-3, moment, further, (1.0, 1.0)))
+        assert left == pytest.approx(
+            left_in_bending(tube, dent_of(tube, steel, 60e-3), 60e-3, moment, further, (1.0, 1.0))
+        )
     else:
         assert left == pytest.approx(deep)
         assert bool(mitre) == (not more)
