@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from crumple.cli.console.beside import Moded, Uncertain, with_its_modes, with_scatter
+from crumple.cli.console.beside import Moded, Uncertain, say_no_modes, with_its_modes, with_scatter
 from crumple.cli.console.fidelity import Fidelity
 from crumple.cli.console.laws import Freeze, Laws, law_lines, range_lines, with_range, with_store
 from crumple.numeric.ranking import largest_first
@@ -180,6 +180,8 @@ def _solve(
             result = with_range(result, source, threads or available_cores(), cancel)
         if sound and (quick if also[1] is None else also[1]):
             result = with_its_modes(result, source, threads or available_cores(), cancel)
+            if also[1] and result.modes is None:
+                say_no_modes(source)
         if also[2] and sound:
             result = with_scatter(result, source, threads or available_cores(), cancel)
         # still inside: Ctrl-C while figures are drawn must not lose the result

@@ -249,3 +249,17 @@ def test_a_run_is_kept_if_the_runs_beside_it_are_stopped(command, tmp_path, monk
     assert code == 0
     assert errors.count("Stopped: ") == 3
     assert json.loads((tmp_path / "out" / "summary.json").read_text())["ok"]
+
+
+@pytest.mark.parametrize(("check", "why"), [("off", "mechanism_check is off"), ("auto", "of impacts on")])
+def test_modes_that_were_asked_for_and_are_none_are_explained(command, tmp_path, check, why):
+    text = EXAMPLE.read_text(encoding="utf-8")
+    text = text.replace("accuracy: 1e-3", f"accuracy: 1e-3, mechanism_check: {check}")
+    path = tmp_path / "case.yaml"
+    path.write_text(text, encoding="utf-8")
+    code, _, errors = command("run", path, "--out", tmp_path / "out", "--no-law-range", "--modes")
+    assert code == 0
+    assert (
+        f"No modes of collapse (--modes): {'analysis.multibody.' if check == 'off' else 'they are '}{why}"
+        in errors
+    )

@@ -65,3 +65,14 @@ def with_its_modes(result: Result, source: LoadedInput, threads: int, cancel: Ca
     except InputError as error:
         typer.echo(f"The modes of collapse are not known: {error.problems[0].what}", err=True)
         return result
+
+
+def say_no_modes(source: LoadedInput) -> None:
+    """Say why a run that was asked for its modes of collapse has none."""
+    off = source.analysis.multibody.mechanism_check == "off"
+    why = (
+        "analysis.multibody.mechanism_check is off"
+        if off
+        else "they are of impacts on structures with two automatic hinges or more"
+    )
+    typer.echo(f"No modes of collapse (--modes): {why}", err=True)

@@ -69,6 +69,8 @@ def corners_without_law(structure: StructureParts) -> list[str]:
     for node, corner in corners(structure).items():
         if node not in having and _asked(structure, corner) is not None:
             why = f"no formula has mitres of {structure.section_of(corner.first).kind} sections"
+            if not _about_normal(structure, corner):
+                why = "hinges do not turn about all axes ('axes: [y, z, x]')"
             then = (
                 "hinges there have the law of their members, whereas the mitre may fold at a smaller moment"
             )

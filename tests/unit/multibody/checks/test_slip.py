@@ -85,3 +85,14 @@ def test_how_far_metal_stretches_is_its_own_where_it_is_known(metal, strain, why
     (found,) = [one for one in cautions if one.code == "stretched_beyond"]
     assert found.limit == pytest.approx(0.4 * strain, rel=0.01)
     assert why in found.text
+
+
+@pytest.mark.parametrize(("second", "together"), [({"peak": 1e6, "mean": 1e6, "stroke": 0.5}, False)])
+def test_folds_that_close_at_one_of_two_hinges_are_told_once(second, together):
+    """The force rises to that of a stop there: it is not too small, as where both are crushed in part."""
+    whole = column(THIN, {"law": "square"}, -60.0).model_dump(exclude_none=True)
+    (hinge,) = whole["members"]["ab"]["hinges"]
+    whole["members"]["ab"]["hinges"] = (hinge, hinge | {"name": "head", "at": 0.35, "axial": second})
+    texts = [one.text for one in run(Structure(**whole), 0.04).cautions if one.code == "bottomed_out"]
+    assert texts
+    assert any("at its hinges together" in text for text in texts) == together

@@ -275,6 +275,7 @@ def test_corners_without_a_sub_model_are_named_with_the_reason(change, reason):
 HAT = {"type": "hat", "width": 0.05, "depth": 0.04, "thickness": 0.0016, "flange": 0.016}
 CLOSED_HAT = HAT | {"type": "closed_hat"}
 DOWNWARDS = {"a": (0.0, 0.0, 0.0), "b": (0.0, 0.0, -0.36), "c": (0.28, 0.0, -0.4)}
+ROUND = {"type": "circular_tube", "diameter": 0.05, "thickness": 0.002}
 HATS = {"sections": {"tube": HAT}, "nodes": DOWNWARDS}
 
 
@@ -297,6 +298,14 @@ HATS = {"sections": {"tube": HAT}, "nodes": DOWNWARDS}
         (
             {**HATS, "roll": math.pi},
             "no formula has mitres of hat sections: hinges there have the law",
+        ),
+        (
+            {
+                "hinges": {"axes": ["y", "z"]},
+                "sections": {"tube": ROUND},
+                "nodes": NODES | {"c": (0.3, 0.3, 0.55)},
+            },
+            "hinges do not turn about all axes ('axes: [y, z, x]'): hinges",
         ),
         (HATS, "recognised with 'roll' larger by 180 deg in both members: another structure): members"),
         (HATS | {"sections": {"tube": CLOSED_HAT}}, None),
