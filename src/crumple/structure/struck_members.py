@@ -3,7 +3,8 @@
 Members are thrown by initial velocities, each as a whole.  The struck one is at rest in what follows, the
 other moves by the difference of their velocities where they touch, like a pole of the outline of its section
 (`struck_places`).  A field that turns gives other velocities at other places, so that place and velocity are
-found in turns.  Members that share a node have no contact with each other.
+found in turns.  Members that share a node have no contact with each other, and a far stronger one does not
+fold where a weaker one strikes it.
 """
 
 from __future__ import annotations
@@ -15,11 +16,14 @@ import numpy as np
 
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import cross
+from crumple.section import AXES
 from crumple.structure.geometry import Frame
 from crumple.structure.initial_fields import fields_of_member
 from crumple.structure.parts import StructureParts
 from crumple.structure.struck_places import LEAST, Core, StruckPlace, reach_of, touch
 
+STRONGER = 3.0
+"""Plastic moment over that of the other member from which on the other one folds alone."""
 TURNS = 5
 """Times that place and velocity are found from each other."""
 
@@ -55,10 +59,19 @@ def _struck(structure: StructureParts) -> Mapping[str, tuple[StruckPlace, ...]]:
     thrown = [_thrown(structure, name) for name in structure.members if structure.is_whole(name)]
     found: dict[str, tuple[StruckPlace, ...]] = {}
     for one, other in _apart(structure, thrown):
+        if _moment(structure, one.name) > STRONGER * _moment(structure, other.name):
+            continue
         place = _place(one, other)
         if place is not None:
             found[one.name] = (*found.get(one.name, ()), place)
     return found
+
+
+def _moment(structure: StructureParts, member: str) -> float:
+    """Larger plastic moment of a section [N m]."""
+    section = structure.section_of(member)
+    most = max(section.plastic_section_modulus(axis) for axis in AXES)
+    return structure.material_of(member).yield_stress * most
 
 
 def _thrown(structure: StructureParts, member: str) -> _Thrown:
