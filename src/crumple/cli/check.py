@@ -49,7 +49,7 @@ def _check_input(file: Path, fidelity: Fidelity) -> None:
     from crumple.errors import InputError
     from crumple.structure.checks.doubtful import input_doubts
     from crumple.structure.checks.never_met import never_met
-    from crumple.structure.checks.section_axes import turned_posts
+    from crumple.structure.checks.section_axes import turned_posts, unnamed_axes
     from crumple.structure.checks.without_effect import unused_names
 
     source = load_input(file)
@@ -65,7 +65,7 @@ def _check_input(file: Path, fidelity: Fidelity) -> None:
         for text in never_met(source.analysis.structure, source.analysis.duration):
             typer.echo(f"  Caution: {text}")
     structure = source.analysis.structure
-    for note in filter(None, (turned_posts(structure), unused_names(structure))):
+    for note in filter(None, (turned_posts(structure), unnamed_axes(structure), unused_names(structure))):
         typer.echo(f"  {note}")
     for solver in fidelity.solvers:
         notes = (_shell_notes if solver is Fidelity.SHELL else _multibody_notes)(source.analysis)

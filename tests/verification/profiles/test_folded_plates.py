@@ -6,8 +6,7 @@ were fitted to those that are marked so.  The others were set aside before, the 
 round corners and the metals that harden chosen after.  One channel is solved again.  The moment of the plates
 equals that of an integration over their fibres, and the law without folds is the plastic moment.
 
-Kind: independent calculation; independent calculation; closed form.  Source: run here; derived here; derived
-here.
+Kind: independent calculation; closed form.  Source: run here; derived here.
 """
 
 import math

@@ -22,9 +22,10 @@ import numpy as np
 from crumple.numeric.arrays import Floats
 from crumple.section.properties.properties import SectionProperties
 from crumple.section.wall_section import walls_of
+from crumple.structure.bending import planar
 from crumple.structure.checks.unusual import Unusual
 from crumple.structure.hinges.asked import automatic_of
-from crumple.structure.hinges.places import member_hinge_places
+from crumple.structure.hinges.places import first_axis, member_hinge_places
 from crumple.structure.hinges.runs.bars import bar_of
 from crumple.structure.hinges.shares import twists_as_one
 from crumple.structure.parts import StructureParts
@@ -96,6 +97,33 @@ def turned_posts(structure: StructureParts) -> str | None:
         f"{_named(list(turned))} {are} and {have} no 'up': {own} turned with the direction of the lean, by "
         f"{turned[worst]:.3g} deg from the global axes{at}. If that is not meant, give 'up', as [1, 0, 0] "
         "for the section of a vertical post."
+    )
+
+
+def unnamed_axes(structure: StructureParts) -> str | None:
+    """Listed hinges of structures in space that name no axis, in a sentence.
+
+    Each bends about one axis, across the plane of its part or of what bends it first.
+    """
+    if planar(structure):
+        return None
+    hinges = [
+        hinge.name
+        for name, spec in structure.members.items()
+        if automatic_of(structure, name) is None
+        for hinge in spec.given_hinges
+        if first_axis(hinge) is None and hinge.axes is None and hinge.axial is None
+    ]
+    if not hinges:
+        return None
+    who = (
+        f"Hinge {hinges[0]} names no axes and bends"
+        if len(hinges) == 1
+        else (f"Hinges {listed(hinges)} name no axes and bend")
+    )
+    return (
+        f"{who} about one axis alone, though the structure moves in space. Give 'axes: [y, z]', or the "
+        "'axis' that is meant."
     )
 
 

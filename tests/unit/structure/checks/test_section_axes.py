@@ -153,3 +153,37 @@ def test_a_post_that_leans_obliquely_without_up_is_named_by_check(tmp_path):
 def test_posts_whose_sections_are_where_one_expects_them_are_not(keys):
     assert turned_posts(loads(posts()).structure) is not None
     assert turned_posts(loads(posts(**keys)).structure) is None
+
+
+PORTAL = """
+crumple: 1
+materials: {steel: {grade: S355}}
+sections: {tube: {type: square_tube, side: 40 mm, thickness: 2 mm}}
+nodes: {a: [0 m, 0 m, 0 m], b: [0 m, 0 m, 0.5 m], c: [0 m, 0.5 m, 0.5 m]}
+members:
+  post: {nodes: [a, b], section: tube, material: steel, hinges: [{name: foot, at: a AXES}]}
+  beam: {nodes: [b, c], section: tube, material: steel}
+supports: {foot: {node: a, fix: all}}
+masses: {tip: {node: c, mass: 10 kg}}
+initial_velocity: [{translation: [SIDE m/s, 2 m/s, 0 m/s]}]
+analysis: {duration: 10 ms}
+"""
+
+
+@pytest.mark.parametrize(
+    ("axes", "side", "named"),
+    [
+        ("", "3", True),
+        ("", "0", False),
+        (", axes: [y, z]", "3", False),
+        (", axis: z", "3", False),
+        (", axial: true", "3", False),
+    ],
+)
+def test_hinges_that_name_no_axes_in_space_are_named_by_check(axes, side, named, tmp_path):
+    path = tmp_path / "portal.yaml"
+    path.write_text(PORTAL.replace("AXES", axes).replace("SIDE", side), encoding="utf-8")
+    found = CliRunner().invoke(app, ["check", str(path)])
+    assert found.exit_code == 0, found.output
+    said = "Hinge foot names no axes and bends about one axis alone, though the structure moves in space."
+    assert (said in " ".join(found.output.split())) == named
