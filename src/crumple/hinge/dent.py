@@ -21,10 +21,14 @@ Rectangular tube of width b and depth h along the force, under a pole:
 
 with the rise and f of shells of four tubes on a rigid floor (`RISE`, `CRUSHED`); m = exp(-2.8 d/h) is the
 moment of two slowly pressed tubes in shells over the depth of their dents.  The middle line moves by
-d (b + h/2)/(2 (b + h)) in the mean, if the upper half of the webs shortens evenly.  A tube of cells is dented
+d (b + h/2)/(2 (b + h)) in the mean, if the upper half of the webs shortens evenly.  A ball of radius R first
+dishes the wall between the webs,
+
+    F = 3 s t d,    d < d_w = R - sqrt(R^2 - (b/2)^2),
+
+until it meets the webs, which then fold as under a pole from there on, F(d - d_w).  A tube of cells is dented
 cell by cell: h is the depth of one in f, which goes on into the next one (`NEXT_CELL`), and the force has the
-factor w/2, w the number of webs along it, inner ones by the square of their wall.  A ball meets the middle
-of a wall, which gives way at far smaller forces: it has no law here.
+factor w/2, w the number of webs along it, inner ones by the square of their wall.
 
 Range, sources and comparison with shells: docs/theory/dents.md.
 """
@@ -52,6 +56,9 @@ NEXT_CELL = (
     (46.0, 51.0, 78.0, 82.0, 105.0),
 )
 """The same of tubes of several cells along the force, over the depth of a cell: mean of four in shells."""
+DISHED, LEAST_BALL = 3.0, 0.55
+"""Force of a ball over flow stress, wall and depth, while it dishes a wall; and its least radius over the
+width of that wall: smaller ones go between the webs."""
 RISE = 0.15
 """Force of its first rise over Young's modulus, wall and depth."""
 WEAKENS = 2.8
@@ -108,7 +115,11 @@ ONE_CELL = Cells(1, 2.0)
 
 
 def dent_of(
-    section: CircularTube | RectangularTube, material: Material, depth: float, cells: Cells = ONE_CELL
+    section: CircularTube | RectangularTube,
+    material: Material,
+    depth: float,
+    cells: Cells = ONE_CELL,
+    ball: float = math.inf,
 ) -> Dent:
     """Dent of a tube.
 
@@ -118,8 +129,8 @@ def dent_of(
         Of the tube.
     depth
         Of the section along the force [m].
-    cells
-        Of a rectangular tube.
+    cells, ball
+        Of a rectangular tube, and radius of a ball that strikes it [m]; infinite: a pole.
     """
     stress, wall = material.flow_stress, section.thickness
     deepest = depth - (cells.along + 1.0) * wall
@@ -129,10 +140,12 @@ def dent_of(
         moves = round_walls_move(depths, (depth - wall) / 2.0)
     else:
         width = section.width + section.depth - depth
+        dish = dish_of(width, ball)
+        into = np.maximum(depths - dish, SHALLOWEST)
         curve = np.hstack([CRUSHED, NEXT_CELL]) if cells.along > 1 else np.array(CRUSHED)
-        folds = stress * wall**2 * np.interp(depths * cells.along / depth, *curve)
-        rises = RISE * material.youngs_modulus * wall * np.maximum(depths, SHALLOWEST)
-        forces = np.minimum(rises, folds) * cells.webs / 2.0
+        folds = stress * wall**2 * np.interp(into * cells.along / depth, *curve)
+        forces = np.minimum(RISE * material.youngs_modulus * wall * into, folds) * cells.webs / 2.0
+        forces = np.where(depths < dish, DISHED * stress * wall * np.maximum(depths, SHALLOWEST), forces)
         moves = depths * (width + depth / 2.0) / (2.0 * (width + depth))
     return Dent(
         np.append(depths, (1.0 + JAMS_WITHIN) * deepest),
@@ -140,6 +153,11 @@ def dent_of(
         np.append(moves, moves[-1]),
         depth * (COMPARED_ROUND if isinstance(section, CircularTube) else COMPARED),
     )
+
+
+def dish_of(width: float, ball: float) -> float:
+    """Depth [m] at which a ball of a radius meets the webs beside a wall of a width [m]; 0 of a pole."""
+    return 0.0 if math.isinf(ball) else ball - math.sqrt(ball**2 - (width / 2.0) ** 2)
 
 
 def dent_force(depth: Floats, thickness: float, stress: float) -> Floats:

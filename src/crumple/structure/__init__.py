@@ -27,7 +27,8 @@ from crumple.structure.hinges.joint_reach import joint_reach
 from crumple.structure.hinges.joints.placed_hinge import PlacedHinge
 from crumple.structure.hinges.law_use import law_types_of, law_use_about, law_uses, used_texts, with_used_laws
 from crumple.structure.hinges.places import HingePlace, hinge_places, member_hinge_places
-from crumple.structure.hinges.struck_folds import DentedTube, dent_at_fold, dented_tubes
+from crumple.structure.hinges.struck.dented_tubes import DentedTube, dented_tubes
+from crumple.structure.hinges.struck_folds import dent_at_fold
 from crumple.structure.keys.joint import Joint
 from crumple.structure.keys.law import LawKeys, Regularisation, Stops
 from crumple.structure.keys.load import ForceComponents, Load, Mass, MomentComponents, NodalImpulse

@@ -198,8 +198,8 @@ def folds_between(structure: Structure, solved: Solved) -> Iterator[Caution]:
                 f"Member {member} yields by {math.degrees(most):.3g} deg at {where}, between its hinges, "
                 "where the model does not let it fold: a fold carries less from "
                 f"{math.degrees(limit):.3g} deg on. "
-                "Give it hinges at its ends and there (hinges: [{at: ..., axes: [y, z]}, ...]), or more "
-                "(hinges: {spacing: ...})."
+                "Give it hinges at its ends and there (hinges: [{name: ..., at: ..., axes: [y, z]}, ...]), "
+                "or more (hinges: {spacing: ...})."
             )
             yield Caution("fold_between_hinges", most, limit, "rad", f"member {member}", text)
 

@@ -29,7 +29,7 @@ from crumple.structure.hinges.corner_laws import corner_laws
 from crumple.structure.hinges.lengthening.nodes_met import nodes_met
 from crumple.structure.hinges.runs.straight_runs import straight_run
 from crumple.structure.hinges.spatial_hinges import interaction_of
-from crumple.structure.hinges.struck_folds import left_by, struck_without_dents, undented_tubes
+from crumple.structure.hinges.struck.dented_tubes import left_by, struck_without_dents, undented_tubes
 from crumple.structure.keys.motion import Support
 from crumple.structure.keys.obstacles import CylinderObstacle, Obstacle, SphereObstacle, gap
 from crumple.structure.struck_places import struck_places

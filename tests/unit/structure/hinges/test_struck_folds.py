@@ -72,8 +72,10 @@ def dented(structure):
         ("hat", HIGH, ["beam"]),
         ("hat, roll: 180 deg", HIGH, []),
         ("round", BALL.replace("HEIGHT", "90"), ["beam"]),
-        # in the middle of a flat wall
-        ("square", BALL.replace("HEIGHT", "90"), []),
+        # in the middle of a flat wall, which a small one presses down between its webs; and of a hat
+        ("square", BALL.replace("HEIGHT", "90"), ["beam"]),
+        ("square", BALL.replace("HEIGHT", "70").replace("radius: 50", "radius: 30"), []),
+        ("hat", BALL.replace("HEIGHT", "90"), []),
         ("round", HIGH + ", dents: false", []),
         # nearly along the tube
         ("round", HIGH.replace("[0, 1, 0]", "[2, 1, 0]"), []),

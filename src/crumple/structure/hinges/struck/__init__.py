@@ -1,0 +1,1 @@
+"""Members that obstacles strike: dents of their walls."""
