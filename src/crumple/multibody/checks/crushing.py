@@ -113,9 +113,9 @@ def _closed_together(structure: Structure, solved: Solved) -> Iterator[Caution]:
     for member, zones in found.items():
         stroke, short = zones[0][0], np.sum([one for _, one in zones], axis=0)
         when = first_above(solved.time, short, CLOSED * stroke)
-        # one that closes alone rises to the force of a stop, and has its own caution
-        alone = max(float(one.max()) for _, one in zones) > stroke
-        if len(zones) > 1 and when is not None and not alone:
+        # where the others do next to nothing the force rises to that of a stop: another caution
+        others = float(short.max()) - max(float(one.max()) for _, one in zones)
+        if when is not None and others > (CLOSED - 1.0) * stroke:
             text = (
                 f"Member {member} is crushed by {format_quantity(float(short.max()), 'm', 3)} at its hinges "
                 f"together, and its folds are closed at {format_quantity(stroke, 'm', 3)}, reached at "

@@ -87,7 +87,7 @@ def test_how_far_metal_stretches_is_its_own_where_it_is_known(metal, strain, why
     assert why in found.text
 
 
-@pytest.mark.parametrize(("second", "together"), [({"peak": 1e6, "mean": 1e6, "stroke": 0.5}, False)])
+@pytest.mark.parametrize(("second", "together"), [({"peak": 1e9, "mean": 1e9, "stroke": 0.5}, False)])
 def test_folds_that_close_at_one_of_two_hinges_are_told_once(second, together):
     """The force rises to that of a stop there: it is not too small, as where both are crushed in part."""
     whole = column(THIN, {"law": "square"}, -60.0).model_dump(exclude_none=True)

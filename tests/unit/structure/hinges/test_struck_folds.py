@@ -72,7 +72,7 @@ def dented(structure):
         ("hat", HIGH, ["beam"]),
         ("hat, roll: 180 deg", HIGH, []),
         ("round", BALL.replace("HEIGHT", "90"), ["beam"]),
-        # in the middle of a flat wall, which a small one presses down between its webs; and of a hat
+        # a ball on a flat wall meets its webs, but for a small one; and not on a hat
         ("square", BALL.replace("HEIGHT", "90"), ["beam"]),
         ("square", BALL.replace("HEIGHT", "70").replace("radius: 50", "radius: 30"), []),
         ("hat", BALL.replace("HEIGHT", "90"), []),
@@ -242,8 +242,7 @@ def test_a_struck_hat_bends_with_its_crown_compressed(roll):
     moments = {sense: float(law.law.moment_capacity(0.0, sense)) for sense in (1, -1)}
     tube = RectangularTube(section.width, section.depth, section.thickness)
     dent = dent_of(tube, structure.material_of("beam"), tube.depth)
-    spans = tube.depth, strike.spans, strike.held
-    left = [left_in_bending(tube, dent, spans[0], moments[sense], *spans[1:]) for sense in (1, -1)]
+    left = [left_in_bending(tube, dent, tube.depth, moments[k], strike.spans, strike.held) for k in (1, -1)]
     assert law.left == left[1] != left[0]
 
 
