@@ -93,6 +93,7 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
         loose_drives,
         notes,
         obstacle_overlap_warnings,
+        overlap_warnings,
         struck_cautions,
         struck_near_ends,
         stuck_drives,
@@ -122,7 +123,8 @@ def _multibody_notes(analysis: Analysis) -> Iterator[str]:
     yield from (f"Caution: {text}" for text in struck_near_ends(structure))
     if not analysis.stages:
         yield from (f"Caution: {text}" for text in swept_supports(structure, analysis.duration))
-    yield from (f"Caution: {text}" for text in obstacle_overlap_warnings(structure, analysis.stages))
+    overlaps = (*overlap_warnings(structure), *obstacle_overlap_warnings(structure, analysis.stages))
+    yield from (f"Caution: {text}" for text in overlaps)
     yield from (f"Caution: {text}" for text in dict.fromkeys(one.text for one in section_doubts(structure)))
 
 

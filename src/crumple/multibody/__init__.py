@@ -8,7 +8,7 @@ from crumple.multibody.bodies.dead_centres import dead_centres
 from crumple.multibody.bodies.linkage import Connection, Linkage, link
 from crumple.multibody.bodies.mobility import notes
 from crumple.multibody.checks.infinitesimal import infinitesimal
-from crumple.multibody.checks.overlap import obstacle_overlap_warnings
+from crumple.multibody.checks.overlap import obstacle_overlap_warnings, overlap_warnings
 from crumple.multibody.checks.struck import struck_cautions, struck_near_ends, swept_supports
 from crumple.multibody.checks.stuck_drives import loose_drives, stuck_drives, stuck_note, with_drives_released
 from crumple.multibody.checks.unheld import unheld_notes
@@ -45,6 +45,7 @@ __all__ = [
     "modes",
     "notes",
     "obstacle_overlap_warnings",
+    "overlap_warnings",
     "planar_initial_motion",
     "sensitivities",
     "solve_multibody",

@@ -5,7 +5,9 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 from tests.support.structures import STEEL
+from typer.testing import CliRunner
 
+from crumple.cli.main import app
 from crumple.multibody import Run, solve_multibody
 from crumple.multibody.bodies.crossing import segment_distance
 from crumple.multibody.checks.overlap import obstacle_overlap_warnings
@@ -178,3 +180,28 @@ def test_distance_of_segments_is_the_least_of_many_places():
         found = segment_distance((ends[0], ends[1]), (ends[2], ends[3]))
         assert found <= least + 1e-12
         assert found == pytest.approx(least, abs=0.02)
+
+
+@pytest.mark.parametrize(("height", "named"), [("40 mm", True), ("60 mm", False)])
+def test_check_names_members_that_overlap(height, named, tmp_path):
+    path = tmp_path / "bars.yaml"
+    path.write_text(
+        f"""
+crumple: 1
+materials: {{steel: {{grade: S355}}}}
+sections: {{tube: {{type: square_tube, side: 50 mm, thickness: 3 mm}}}}
+nodes: {{a: [0 m, 0 m, 0 m], b: [1 m, 0 m, 0 m], c: [0.5 m, -0.5 m, {height}], d: [0.5 m, 0.5 m, {height}]}}
+members:
+  low: {{nodes: [a, b], section: tube, material: steel}}
+  high: {{nodes: [c, d], section: tube, material: steel}}
+supports: {{a: {{node: a, fix: all}}, b: {{node: b, fix: all}}}}
+initial_velocity: [{{translation: [0 m/s, 0 m/s, -5 m/s], members: [high]}}]
+member_contact: {{friction: 0.1}}
+analysis: {{duration: 5 ms}}
+""",
+        encoding="utf-8",
+    )
+    found = CliRunner().invoke(app, ["check", str(path)])
+    assert found.exit_code == 0, found.output
+    said = "Members low and high overlap at the start by up to 10 mm"
+    assert (said in " ".join(found.output.split())) == named
