@@ -119,13 +119,15 @@ def surface_of(
     capsules, owners = list(moving), list(member)
     edges = list(edges_of(structure, linkage.pieces))
     corners = list(end_corners(structure, linkage.pieces))
-    if any(obstacle.mass is not None for obstacle in structure.obstacles.values()):
-        # other obstacles are held or driven themselves
+    # other obstacles are held or driven themselves
+    heavy = any(obstacle.mass is not None for obstacle in structure.obstacles.values())
+    if heavy or structure.member_contact is not None:
         fixed = pieces_by_length(linkage, fixed=True)
         held, owner = member_capsules(structure, fixed, held=True)
-        edges += edges_of(structure, fixed, held=True)
         capsules, owners = capsules + held, owners + owner
-        corners += end_corners(structure, linkage.pieces, held=True)
+        if heavy:
+            edges += edges_of(structure, fixed, held=True)
+            corners += end_corners(structure, linkage.pieces, held=True)
     of = with_folds(structure, linkage, [edge.capsule for edge in edges], [edge.member for edge in edges])
     edges = [replace(edge, capsule=capsule) for edge, capsule in zip(edges, of, strict=True)]
     ends = [

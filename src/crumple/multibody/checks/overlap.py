@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from crumple.multibody.bodies.capsules import member_capsules, touching_pairs
+from crumple.multibody.bodies.capsules import member_capsules, pieces_by_length, touching_pairs
 from crumple.multibody.bodies.crossing import crossing_members, pair_distances
 from crumple.multibody.bodies.linkage import link
 from crumple.multibody.checks.names import named
@@ -36,7 +36,12 @@ def overlap_warnings(structure: Structure) -> tuple[str, ...]:
     if structure.member_contact is None:
         return ()
     deepest: dict[tuple[str, str], float] = {}
-    capsules, owner = member_capsules(structure, link(structure).pieces)
+    linkage = link(structure)
+    moving, held = (
+        member_capsules(structure, of, held=still)
+        for of, still in ((linkage.pieces, False), (pieces_by_length(linkage, fixed=True), True))
+    )
+    capsules, owner = moving[0] + held[0], moving[1] + held[1]
     pairs = list(touching_pairs(structure, capsules, owner))
     crossing = crossing_members(capsules, owner, pairs)
     for (i, j), apart in zip(pairs, pair_distances(capsules, pairs).tolist(), strict=True):

@@ -128,9 +128,10 @@ def with_obstacles(
     contact = structure.member_contact
     pairs = SpatialContact()
     if contact is not None:
-        between = list(touching_pairs(structure, moving, member))
-        crossing = crossing_members(moving, member, between)
-        meeting = tuple(pair for pair in between if (member[pair[0]], member[pair[1]]) not in crossing)
+        of = surface.member
+        between = list(touching_pairs(structure, surface.whole, of))
+        crossing = crossing_members(surface.whole, of, between)
+        meeting = tuple(pair for pair in between if (of[pair[0]], of[pair[1]]) not in crossing)
         pairs = SpatialContact(meeting, contact.friction, contact.restitution)
     touching_model = replace(
         model,
