@@ -26,7 +26,8 @@ dishes the wall between the webs,
 
     F = 3 s t d,    d < d_w = R - sqrt(R^2 - (b/2)^2),
 
-until it meets the webs, which then fold as under a pole from there on, F(d - d_w).  A tube of cells is dented
+until it meets the webs, which then fold as under a pole from there on, F(d - d_w), at no less than F(d_w).
+The dish takes no more than 27 s t^2, at which webs begin to fold.  A tube of cells is dented
 cell by cell: h is the depth of one in f, which goes on into the next one (`NEXT_CELL`), and the force has the
 factor w/2, w the number of webs along it, inner ones by the square of their wall.
 
@@ -140,12 +141,15 @@ def dent_of(
         moves = round_walls_move(depths, (depth - wall) / 2.0)
     else:
         width = section.width + section.depth - depth
-        dish = dish_of(width, ball)
+        dish = min(dish_of(width, ball), deepest)
         into = np.maximum(depths - dish, SHALLOWEST)
         curve = np.hstack([CRUSHED, NEXT_CELL]) if cells.along > 1 else np.array(CRUSHED)
         folds = stress * wall**2 * np.interp(into * cells.along / depth, *curve)
         forces = np.minimum(RISE * material.youngs_modulus * wall * into, folds) * cells.webs / 2.0
-        forces = np.where(depths < dish, DISHED * stress * wall * np.maximum(depths, SHALLOWEST), forces)
+        # a dish stays as strong as it was, at most as strong as webs that begin to fold
+        dished = DISHED * wall * np.clip(depths, SHALLOWEST, dish) if dish > 0.0 else 0.0 * depths
+        dished = stress * np.minimum(dished, CRUSHED[1][0] * wall**2 * cells.webs / 2.0)
+        forces = np.where(depths < dish, dished, np.maximum(dished, forces))
         moves = depths * (width + depth / 2.0) / (2.0 * (width + depth))
     return Dent(
         np.append(depths, (1.0 + JAMS_WITHIN) * deepest),

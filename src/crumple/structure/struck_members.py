@@ -59,10 +59,10 @@ def _struck(structure: StructureParts) -> Mapping[str, tuple[StruckPlace, ...]]:
     thrown = [_thrown(structure, name) for name in structure.members if structure.is_whole(name)]
     found: dict[str, tuple[StruckPlace, ...]] = {}
     for one, other in _apart(structure, thrown):
-        if _moment(structure, one.name) > STRONGER * _moment(structure, other.name):
-            continue
         place = _place(one, other)
-        if place is not None:
+        if place is None:
+            continue
+        if _moment(structure, one.name) <= STRONGER * _moment(structure, other.name):
             found[one.name] = (*found.get(one.name, ()), place)
     return found
 

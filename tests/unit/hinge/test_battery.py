@@ -92,12 +92,7 @@ OPTIONS = {
     "hardening_tube": [{}, {}],
     "hardening_section": [{}, {}],
     "circular": [{"after_jamming": "stop", "rolling_weight": 0.0}, {"after_jamming": "second_fold"}],
-    "folded_profile": [
-        {},
-        {"after_jamming": "second_fold"},
-        {"rolling_weight": 0.0},
-        {"after_jamming": "stop"},
-    ],
+    "folded_profile": [{}, {"rolling_weight": 0.0}, *({"after_jamming": x} for x in ("second_fold", "stop"))],
     "folded_plates": [{}, {}],
 }
 ASYMMETRIC = {

@@ -114,3 +114,17 @@ def test_a_far_stronger_member_has_none():
     structure = crossing(sections=strong)
     assert places_struck_by_members(structure, "bar")
     assert not places_struck_by_members(structure, "beam")
+
+
+def test_a_number_as_a_name_hides_no_other_candidate():
+    """Candidates between are numbered: a beam, or a pole, of the name 1 would take the name of the first."""
+    whole = crossing().model_dump(exclude_none=True)
+    whole["members"]["bar"]["hinges"] = {"spacing": 0.5}
+    named = {one.name: one.station for one in placed_hinges(Structure(**whole))}
+    whole["members"]["1"] = whole["members"].pop("beam")
+    whole["initial_velocity"] = [{"translation": (0.0, 0.0, -5.0), "members": ("1",)}]
+    renamed = {one.name: one.station for one in placed_hinges(Structure(**whole))}
+    along = [sorted(at for name, at in some.items() if name.startswith("bar-")) for some in (named, renamed)]
+    assert along[0] == along[1]
+    assert "bar-1-struck" in renamed
+    assert {"bar-1", "bar-beam"} <= set(named)

@@ -2,9 +2,10 @@
 
 Sub-models of docs/theory/characterisation.md (two halves turned against each other, 4 elements along half a
 fold), solved once by this program: work [J] up to 5, 10 and 20 degrees of plastic rotation.  The constants
-were fitted to those that are marked so.  The others were set aside before, the sections of walls, those with
-round corners and the metals that harden chosen after.  One channel is solved again.  The moment of the plates
-equals that of an integration over their fibres, and the law without folds is the plastic moment.
+were fitted to those under FITTED (and to angles of equal legs about z, where they are as about y).  The rest
+was set aside before, though its errors were seen while the form was chosen; the sections of walls, those with
+round corners and the metals that harden were chosen after.  One channel is solved again.  The moment of the
+plates equals that of an integration over their fibres, and the law without folds is the plastic moment.
 
 Kind: independent calculation; closed form.  Source: run here; derived here.
 """
@@ -69,6 +70,18 @@ FITTED = [
     ("angle 40x60x3 mm", 300, "z", -1, (56.8, 111.8, 209.4)),
     ("angle 60x60x2.5 mm", 350, "y", 1, (118.5, 218.2, 390.7)),
     ("angle 80x50x5 mm", 280, "z", 1, (262.6, 402.3, 587.1)),
+    ("angle 40x60x3 mm", 300, "y", 1, (116.3, 216.5, 391.5)),
+    ("angle 40x60x3 mm", 300, "z", 1, (50.8, 81.1, 122.1)),
+    ("angle 60x60x2.5 mm", 350, "y", -1, (61.4, 91.3, 134.3)),
+    ("angle 80x50x5 mm", 280, "y", 1, (136.7, 273.7, 521.4)),
+    ("angle 80x50x5 mm", 280, "y", -1, (138.5, 256.2, 408.3)),
+    ("angle 80x50x5 mm", 280, "z", -1, (321.6, 610.1, 1111.3)),
+]
+# the first two were fitted to, the third was not
+IN_ALUMINIUM = [
+    ("multi_cell_tube 100x50x2.5 mm, cells 2x1", 220, "y", 1, (296.9, 565.4, 1002.2)),
+    ("multi_cell_tube 100x50x2.5 mm, cells 2x1", 220, "z", 1, (423.6, 757.4, 1297.7)),
+    ("multi_cell_tube 90x50x2 mm, cells 2x1", 240, "z", 1, (290.3, 515.3, 877.9)),
 ]
 OTHERS = [
     ("channel 55x90x2.5 mm", 400, "y", 1, (333.5, 521.0, 781.0)),
@@ -127,8 +140,8 @@ OF_WALLS = [
 ]
 
 
-def metal(megapascals):
-    return replace(STEEL, yield_stress=1e6 * megapascals)
+def metal(megapascals, base=STEEL):
+    return replace(base, yield_stress=1e6 * megapascals)
 
 
 def name_of(case):
@@ -142,11 +155,11 @@ def work(law, sense, degrees):
     return float(np.trapezoid(law.moment_capacity(at, sense), at))
 
 
-@pytest.mark.parametrize("case", [*FITTED, *OTHERS, *OF_WALLS], ids=name_of)
+@pytest.mark.parametrize("case", [*FITTED, *OTHERS, *OF_WALLS, *IN_ALUMINIUM], ids=name_of)
 def test_work_of_the_law_is_that_of_shells(case, record_figure):
     given, stress, axis, sense, shells = case
     section = written_section(given) if isinstance(given, str) else given
-    law = build_law("auto", section, metal(stress), axis)
+    law = build_law("auto", section, metal(stress, ALUMINIUM if case in IN_ALUMINIUM else STEEL), axis)
     assert law.name == "folded_plates"
     band = law.validity.uncertainty
     assert band == BANDS.get(section.kind, 0.25)

@@ -137,7 +137,7 @@ class _Beside:
         metal = structure.section_of(bar.first), structure.material_of(bar.first)
         like = yielding_record(structure, bar.first, "y", bar.length, bar.length)
         found = []
-        for stretch in twisting_stretches(structure, bar):
+        for stretch in twisting_stretches(structure, bar, gaps):
             inside = [at for at in gaps if stretch.start < at < stretch.end]
             middle = 0.5 * (stretch.start + stretch.end)
             # two may be equally near but for rounding: then the first

@@ -62,11 +62,20 @@ class TwistingStretch:
         return [(a, b) for a, b in parts if b > a]
 
 
-def twisting_stretches(structure: StructureParts, bar: StraightRun) -> list[TwistingStretch]:
+def twisting_stretches(
+    structure: StructureParts, bar: StraightRun, joints: Sequence[float]
+) -> list[TwistingStretch]:
     """Stretches of a bar between its ends and the places where something strikes it.
 
     Torque that acts between the ends turns both parts against each other: its place does not warp where both
     are alike, and in the plastic mechanism of any two.
+
+    Parameters
+    ----------
+    structure, bar
+        As of `bar_of`.
+    joints
+        Places at which the bar may twist, from its start [m]; each stretch has one.
     """
     rigid, (_, held_ends) = rigid_along(structure, bar), warping_span(structure, bar)
     places: set[float] = set()
@@ -75,15 +84,16 @@ def twisting_stretches(structure: StructureParts, bar: StraightRun) -> list[Twis
         places |= {stretch.along(place.station) for place in struck}
     section = structure.section_of(bar.first)
     least = 2.0 * max(half_fold_length(section, axis) for axis in AXES)
-    inner: list[float] = []
+    ends = [0.0]
     for at in sorted(places):
-        if at - (inner[-1] if inner else 0.0) > least and bar.length - at > least:
-            inner.append(at)
-    if not inner:
+        parts = (ends[-1], at), (at, bar.length)
+        if all(b - a > least and any(a < joint < b for joint in joints) for a, b in parts):
+            ends.append(at)
+    ends.append(bar.length)
+    if len(ends) == 2:
         return [TwistingStretch(0.0, bar.length, rigid, held_ends)]
     held = [node in structure.loaded_nodes or len(structure.members_at[node]) > 1 for node in bar.nodes]
-    ends = [0.0, *inner, bar.length]
-    free = [not held[0], *([False] * len(inner)), not held[1]]
+    free = [not held[0], *([False] * (len(ends) - 2)), not held[1]]
     return [
         TwistingStretch(ends[i], ends[i + 1], rigid, "one" if free[i] or free[i + 1] else "both")
         for i in range(len(ends) - 1)

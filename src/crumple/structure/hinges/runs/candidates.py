@@ -134,8 +134,7 @@ def _candidates(
     inside = {fold: _inside(structure, run, axes, fold) for fold in dict.fromkeys(beside)}
     first, last = start + inside[beside[0]], end - inside[beside[1]]
     struck = [*_struck(structure, run, half, ends=False), *by_members]
-    struck = [(name, at) for name, at in struck if first < at < last]
-    struck = [(f"{name}-struck" if name in (*run.nodes, *run.between) else name, at) for name, at in struck]
+    struck = [(_own_name(run, name), at) for name, at in struck if first < at < last]
     number = 1 if spacing is None else max(1, math.ceil((last - first) / spacing * (1.0 - 1e-9)))
     number = max(number, _least_parts(structure, run, bool(struck), first_held or last_held))
     between = np.linspace(first, last, number + 1)[1:-1].tolist()
@@ -173,6 +172,11 @@ def _candidates(
             strikes = tuple(obstacle for obstacle, place in pressed if abs(at - place) <= half)
             strike = Strike(strikes, (at - start, end - at), held) if strikes else None
             yield replace(_candidate(run, name, at), near=FREE, strike=strike)
+
+
+def _own_name(run: StraightRun, name: str) -> str:
+    """Name of the candidate where something strikes; nodes and numbers name others."""
+    return f"{name}-struck" if name in (*run.nodes, *run.between) or name.isdigit() else name
 
 
 def _least_parts(structure: StructureParts, run: StraightRun, struck: bool, held: bool) -> int:

@@ -41,10 +41,14 @@ def elastic(whole):
     return with_elastic_members(whole, MultibodySettings(), 0.02)
 
 
+def stretches(whole, joints=(0.1, 0.3, 0.5, 0.7, 0.9)):
+    return twisting_stretches(whole, bar_of(whole, "am"), joints)
+
+
 def test_what_strikes_between_the_ends_divides_the_twist():
     whole = elastic(struck_channel())
     bar = bar_of(whole, "am")
-    first, second = twisting_stretches(whole, bar)
+    first, second = stretches(whole)
     assert (first.start, first.end, second.start, second.end) == pytest.approx((0.0, 0.4, 0.4, 1.0))
     metal = whole.section_of("am"), whole.material_of("am")
     for stretch in (first, second):
@@ -64,20 +68,26 @@ def test_what_strikes_between_the_ends_divides_the_twist():
 
 def test_a_mass_ends_the_bar_and_nothing_else_divides_it():
     loaded = elastic(struck_channel(obstacles={}, masses={"m": {"node": "m", "mass": 5.0}}))
-    assert [one.end for one in twisting_stretches(loaded, bar_of(loaded, "am"))] == pytest.approx([0.6])
+    assert [one.end for one in stretches(loaded)] == pytest.approx([0.6])
     plain = elastic(struck_channel(obstacles={}))
-    (whole,) = twisting_stretches(plain, bar_of(plain, "am"))
+    (whole,) = stretches(plain)
     assert (whole.span, whole.held_ends) == (pytest.approx(1.0), "both")
 
 
 def test_a_place_within_a_fold_of_an_end_divides_nothing():
     near = elastic(struck_channel(obstacles={"pole": POLE | {"point": (0.02, -0.005, 0.3)}}))
-    assert len(twisting_stretches(near, bar_of(near, "am"))) == 1
+    assert len(stretches(near)) == 1
+
+
+def test_a_part_in_which_nothing_can_twist_divides_nothing():
+    whole = elastic(struck_channel())
+    assert len(stretches(whole)) == 2
+    assert len(stretches(whole, (0.5, 0.9))) == len(stretches(whole, (0.1, 0.3))) == 1
 
 
 def test_an_end_that_may_warp_stays_so():
     parts = {"supports": {"a": {"node": "a", "fix": "all"}}}
-    first, second = twisting_stretches(whole := elastic(struck_channel(**parts)), bar_of(whole, "am"))
+    first, second = stretches(elastic(struck_channel(**parts)))
     assert (first.held_ends, second.held_ends) == ("both", "one")
 
 
