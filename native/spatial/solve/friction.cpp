@@ -13,6 +13,10 @@ namespace crumple::spatial {
 
 namespace {
 
+// Times that friction follows normal impulses in a solution before contacts that take the load in turns are pressed together, and solutions
+// in search of those that stay so; more do not find them if many contacts lie flush, of which some stick below the rate of creep.
+constexpr int most_followed = 2, most_searched = 10;
+
 size_t at(int i) { return static_cast<size_t>(i); }
 
 // Solves a x = b by elimination without exchanges, with pivots as if they were positive; false if one vanishes.  A negative pivot says
@@ -37,6 +41,63 @@ bool solve_dense(std::vector<double>& a, std::vector<double>& b) {
 
 }  // namespace
 
+// Whether friction agrees with the normal impulses, in a solution for given limits; if not, the limits change.
+bool NewtonSolver::friction_holds(double& slope) {
+    const double* impulse = p_.impulse.data() + p_.contact_rows();
+    if (in_turns_ || p_.contacts.limits_hold(impulse)) return true;
+    if (followed_ == 0) pressed_.assign(p_.contacts.size(), false);
+    for (size_t i = 0; i < pressed_.size(); i++) {
+        if (impulse[p_.contacts.rows() * i] < 0) pressed_[i] = true;
+    }
+    if (++followed_ <= most_followed) {
+        follow_friction();
+        return balanced(slope) && p_.contacts.limits_hold(impulse);
+    }
+    // if they do not press together, a solution for the limits of before will do, as after the last pass
+    std::vector<double> limits;
+    for (size_t i = 0; i < p_.contacts.size(); i++) limits.push_back(p_.contacts.normal(i));
+    const bool searched = presses_;
+    presses_ = searched && press_together(slope);
+    in_turns_ = !presses_;
+    for (size_t i = 0; in_turns_ && i < limits.size(); i++) p_.contacts.set_normal(i, limits[i]);
+    return presses_ || !searched;
+}
+
+// Contacts may take the load in turns, because each is pressed while the friction of another is missing: then all that took part are closed,
+// and those opened again, one by one, that would have to pull while none changes between sticking and sliding.  False if friction does not
+// agree with the normal impulses then either.
+bool NewtonSolver::press_together(double& slope) {
+    const double* impulse = p_.impulse.data() + p_.contact_rows();
+    const size_t n = pressed_.size();
+    for (int k = 0; k < most_searched; k++) {
+        take();
+        for (size_t i = 0; i < n; i++) {
+            double& rate = p_.w[at(p_.start(contact_link(i)))];
+            if (pressed_[i]) rate = std::min(rate, -rate_tolerance * p_.speed);
+        }
+        solve_once();
+        follow_friction();
+        bool turns = false;
+        size_t pulls = n;
+        double most = 0;
+        for (size_t i = 0; i < n; i++) {
+            if (stop_reversing(contact_link(i)) || (pressed_[i] && slides(i, p_.w) != slides(i, p_.w_next))) turns = true;
+            if (!pressed_[i] || impulse[p_.contacts.rows() * i] <= most) continue;
+            most = impulse[p_.contacts.rows() * i];
+            pulls = i;
+        }
+        if (turns) continue;
+        if (pulls == n && balanced(slope) && p_.contacts.limits_hold(impulse)) return true;
+        if (pulls < n) pressed_[pulls] = false;
+    }
+    return false;
+}
+
+bool NewtonSolver::slides(size_t contact, const std::vector<double>& rates) const {
+    const double* w = &rates[at(p_.start(contact_link(contact)))];
+    return std::hypot(w[1], w[2]) > p_.contacts.frozen(contact).width;
+}
+
 size_t NewtonSolver::contact_link(size_t contact) const { return p_.connections.size() - p_.contacts.size() + contact; }
 
 // Unknowns by which the linearised problem answers to an impulse per normal impulse of a sliding contact, and that impulse.
@@ -60,13 +121,13 @@ void NewtonSolver::follow_friction() {
     for (size_t i = 0; i < p_.contacts.size(); i++) {
         if (p_.contacts.friction(i) == 0) continue;
         const size_t first = at(p_.start(contact_link(i)));
-        const double found = std::max(-p_.impulse[first], 0.0), slip = std::hypot(p_.w_next[first + 1], p_.w_next[first + 2]);
-        if (slip > p_.contacts.frozen(i).width) {
+        const double found = -p_.impulse[first];
+        if (slides(i, p_.w_next)) {
             sliding.push_back(i);
             left.push_back(found - p_.contacts.normal(i));
             largest = std::max(largest, std::fabs(left.back()));
         } else {
-            p_.contacts.set_normal(i, found);
+            p_.contacts.set_normal(i, std::max(found, 0.0));
         }
     }
     const size_t n = sliding.size();

@@ -25,10 +25,6 @@ constexpr double impulse_tolerance = 1e-9, vibrating_tolerance = 1e-6, widened_t
 // Limit of the linear solves of a step relative to the Newton iterations allowed for one width of the ramps: enough for all widths in
 // two passes, and some more.
 constexpr int most_solves = 20;
-// Number of times that friction follows normal impulses in a solution: contacts that take the load in turns, because each is pressed
-// while the friction of another is missing, would do so for ever.  The limits are then those of impulses that were found before, as
-// after the last pass.
-constexpr int most_followed = 4;
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
@@ -49,6 +45,7 @@ void NewtonSolver::relinked() {
 
 void NewtonSolver::begin(bool warm, bool rubs) {
     rubs_ = rubs;
+    presses_ = true;
     last_solve_ = solves_ + most_solves * most_iterations();
     if (!warm) {
         path_.forget();
@@ -91,6 +88,7 @@ bool NewtonSolver::solve_laws() {
     tolerance_ = finest_tolerance();
     energy_ = 0;
     followed_ = 0;
+    in_turns_ = false;
     for (size_t i = 0; i < p_.free.size(); i++) {
         energy_ += p_.inertia_share() * (p_.model.bodies[i].mass * dot(p_.free[i].v, p_.free[i].v) + dot(p_.free[i].w, p_.inertia[i] * p_.free[i].w)) / 2;
     }
@@ -119,8 +117,6 @@ bool NewtonSolver::solve_laws() {
     restart();
     return narrow_ramps();
 }
-
-bool NewtonSolver::took_turns() const { return followed_ > most_followed; }
 
 double NewtonSolver::finest_tolerance() const {
     const bool passes_over = p_.elastic && std::isfinite(p_.model.resolved_frequency) && !p_.stage.quasi_static;
@@ -200,10 +196,7 @@ bool NewtonSolver::descend(int limit, bool full_steps, int found) {
 bool NewtonSolver::settled(double& slope) {
     if (!balanced(slope)) return false;
     if (!rubs_ || tolerance_ > finest_tolerance() || p_.contacts.rows() == 1 || p_.contacts.size() == 0) return true;
-    const double* impulse = p_.impulse.data() + p_.contact_rows();
-    if (p_.contacts.limits_hold(impulse) || ++followed_ > most_followed) return true;
-    follow_friction();
-    return balanced(slope) && p_.contacts.limits_hold(impulse);
+    return friction_holds(slope);
 }
 
 // Whether a sliding hinge would reverse; if it continues and has a round surface, its next rates follow its impulse.
@@ -218,11 +211,13 @@ bool NewtonSolver::reverses(size_t link) {
     return along < 0;
 }
 
-// Sets the tangential rates of a contact that would reverse its slip to zero first.
-void NewtonSolver::stop_reversing(size_t link) {
+// Sets the tangential rates of a contact that would reverse its slip to zero first; whether it would.
+bool NewtonSolver::stop_reversing(size_t link) {
     const double *w = &p_.w[at(p_.start(link))], width = p_.contacts.frozen(at(p_.connections[link].index)).width;
     double* next = &p_.w_next[at(p_.start(link))];
-    if (p_.contacts.rows() == 3 && std::hypot(w[1], w[2]) > width && w[1] * next[1] + w[2] * next[2] < 0) next[1] = next[2] = 0;
+    const bool turns = p_.contacts.rows() == 3 && std::hypot(w[1], w[2]) > width && w[1] * next[1] + w[2] * next[2] < 0;
+    if (turns) next[1] = next[2] = 0;
+    return turns;
 }
 
 // Takes the full Newton step with two exceptions: a hinge that would reverse is set to zero rates first, and of neighbouring locked

@@ -30,7 +30,7 @@ public:
     // a single Newton step; false if its result is not finite
     bool solve_linear();
     // whether contacts took the load in turns in the last pass: its friction is then that of normal impulses found before
-    bool took_turns() const;
+    bool took_turns() const { return in_turns_; }
     std::int64_t solves() const { return solves_; }
     // body at the link with the largest imbalance in the last iteration; -1: the ground
     int stuck_body() const { return stuck_body_; }
@@ -56,7 +56,7 @@ private:
     bool balanced(double& slope);
     void take_full_step();
     bool reverses(size_t link);
-    void stop_reversing(size_t link);
+    bool stop_reversing(size_t link);
     double search(double slope_end);
     bool settled(double& slope);
     void read_unknowns(size_t link, const double* x, double* w, double* impulse) const;
@@ -65,6 +65,9 @@ private:
     void answer_to_friction(size_t contact, double tolerance, std::vector<double>& applied, std::vector<double>& x);
     void follow_friction();
     void move_with_friction(size_t n, const std::vector<double>& change);
+    bool friction_holds(double& slope);
+    bool press_together(double& slope);
+    bool slides(size_t contact, const std::vector<double>& rates) const;
 
     Problem& p_;
     CentralPath path_;
@@ -77,6 +80,9 @@ private:
     bool solved_ = false;                       // whether w holds the solution of the last pass
     bool rubs_ = true;                          // friction follows the normal impulses
     int followed_ = 0;                          // times that they did so in this solution
+    std::vector<bool> pressed_;                 // contacts that were pressed in one of them
+    bool in_turns_ = false;                     // contacts took the load in turns, and do not together
+    bool presses_ = true;                       // they did so together before in this step
     bool full_steps_ = true;                    // full Newton steps have not cycled in this step
     double tolerance_ = 0;                      // relative tolerance of impulses at the present width of the ramps
     double energy_ = 0;                         // kinetic energy of the free motion [J]

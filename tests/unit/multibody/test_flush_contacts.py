@@ -1,4 +1,4 @@
-"""Flush contacts with friction: points of one joint that take the load in turns."""
+"""Contacts with friction that take the load in turns: points of one joint, and both sides of a fold."""
 
 from __future__ import annotations
 
@@ -67,6 +67,33 @@ analysis:
   duration: 3 ms
 """
 
+FALLS = """crumple: 1
+materials:
+  steel: {youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 300 MPa}
+sections:
+  low: {type: circular_tube, diameter: 50 mm, thickness: 2 mm}
+  high: {type: square_tube, side: 50 mm, thickness: 2 mm}
+nodes:
+  left: [0 m, 0 m, 0 m]
+  left_top: [0 m, 0 m, 0.7 m]
+  right_top: [1 m, 0 m, 0.7 m]
+  right: [1 m, 0 m, 0 m]
+  near: [0.4 m, -0.4 m, 0.79 m]
+  far: [0.43 m, 0.5 m, 0.81 m]
+members:
+  left: {nodes: [left, left_top], section: low, material: steel}
+  roof: {nodes: [left_top, right_top], section: low, material: steel}
+  right: {nodes: [right, right_top], section: low, material: steel}
+  beam: {nodes: [near, far], section: high, material: steel}
+hinges: auto
+supports: {left: {node: left, fix: all}, right: {node: right, fix: all}}
+masses: {near: {node: near, mass: 15 kg}, far: {node: far, mass: 15 kg}}
+member_contact: {friction: 0.3}
+initial_velocity: [{translation: [0 m/s, 0.5 m/s, -5 m/s], members: [beam]}]
+analysis:
+  duration: 20 ms
+"""
+
 
 def solved_once(text):
     analysis = loads(text)
@@ -95,4 +122,16 @@ def test_corners_of_a_beam_that_lies_flat_on_a_wall_stay_rigid_contacts(monkeypa
     monkeypatch.setattr(solver, "with_crushing", refuse)
     solved = solved_once(RAILS)
     assert solved.outcome is Outcome.COMPLETE
+    assert solved.residual < 1e-6
+
+
+def test_both_sides_of_a_fold_press_together():
+    """A beam that falls on a portal: its halves rub over the roof in opposite directions.
+
+    Before, 181 linear solves a step in 441 steps.
+    """
+    solved = solved_once(FALLS)
+    assert solved.outcome is Outcome.COMPLETE
+    assert solved.solves < 110 * solved.steps
+    assert solved.steps < 250
     assert solved.residual < 1e-6
