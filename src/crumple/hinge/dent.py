@@ -3,17 +3,18 @@
 Unknown: the force F on a pole or ball across a tube over the depth d of the dent, and the share of the
 plastic moment M_p that the dented section keeps.  s is the flow stress, t the wall.
 
-Round tube of mean radius R:
+Round tube of the diameter D and the mean radius R under a pole or ball of the radius r, x = r t/D^2:
 
-    F = 4 s t^1.5 sqrt(2 pi d/3)
+    F = (1/2 + sqrt(x)) 4 s t^1.5 sqrt(2 pi d/3)
 
 Where a chord replaces the arc 2 beta that is dented, and carries nothing,
 
-    m(d) = cos(beta/2) - sin(beta)/2,    cos(beta) = 1 - d/R
+    m_0(d) = cos(beta/2) - sin(beta)/2,    cos(beta) = 1 - d/R
 
-of M_p are left; and the middle line moves by (R/pi) (sin(beta) - beta cos(beta)) in the mean.  Pole and beam
+of M_p are left; and the middle line moves by (R/pi) (sin(beta) - beta cos(beta)) in the mean.  A wide pole
+presses a long and flat dent, which goes on carrying a share: m = 1 - exp(-7 x) (1 - m_0).  Pole and beam
 carry the same force, so the dent grows until F = m M_p a + b, with a, b from the spans of the tube and the
-moments at their ends.
+moments at their ends.  The factors with x are fitted to tubes in shells.
 
 Rectangular tube of width b and depth h along the force, under a pole:
 
@@ -57,6 +58,9 @@ NEXT_CELL = (
     (46.0, 51.0, 78.0, 82.0, 105.0),
 )
 """The same of tubes of several cells along the force, over the depth of a cell: mean of four in shells."""
+SHARP, WIDER, FLATTER = 0.5, 1.0, 7.0
+"""Round tubes: force under a sharp edge over that of the formula, and what a wide pole adds per sqrt(x); and
+decrease per x of the logarithm of what a dent takes of the moment."""
 DISHED, LEAST_BALL = 3.0, 0.55
 """Force of a ball over flow stress, wall and depth, while it dishes a wall; and its least radius over the
 width of that wall: smaller ones go between the webs."""
@@ -86,12 +90,15 @@ class Dent:
         Mean displacement of the walls of the section at each depth [m].
     compared
         Depth up to which it was compared with shells [m].
+    takes
+        What the dent takes of the moment under this obstacle, over what it takes under a sharp edge [-].
     """
 
     depth: Floats
     force: Floats
     moves: Floats
     compared: float
+    takes: float = 1.0
 
     def at(self, depth: Floats) -> Floats:
         """Force [N] at some depths [m]."""
@@ -115,12 +122,19 @@ class Cells(NamedTuple):
 ONE_CELL = Cells(1, 2.0)
 
 
+class Striker(NamedTuple):
+    """Radius of the pole or ball that strikes a tube [m], and whether it is a ball."""
+
+    radius: float
+    is_ball: bool = False
+
+
 def dent_of(
     section: CircularTube | RectangularTube,
     material: Material,
     depth: float,
+    striker: Striker,
     cells: Cells = ONE_CELL,
-    ball: float = math.inf,
 ) -> Dent:
     """Dent of a tube.
 
@@ -130,18 +144,23 @@ def dent_of(
         Of the tube.
     depth
         Of the section along the force [m].
-    cells, ball
-        Of a rectangular tube, and radius of a ball that strikes it [m]; infinite: a pole.
+    striker
+        What strikes it.
+    cells
+        Of a rectangular tube.
     """
+    takes = 1.0
     stress, wall = material.flow_stress, section.thickness
     deepest = depth - (cells.along + 1.0) * wall
     depths = deepest * np.linspace(0.0, 1.0, SAMPLES) ** 2
     if isinstance(section, CircularTube):
-        forces = dent_force(np.maximum(depths, SHALLOWEST), wall, stress)
+        blunt = striker.radius * wall / depth**2
+        forces = dent_force(np.maximum(depths, SHALLOWEST), wall, stress) * (SHARP + WIDER * math.sqrt(blunt))
+        takes = math.exp(-FLATTER * blunt)
         moves = round_walls_move(depths, (depth - wall) / 2.0)
     else:
         width = section.width + section.depth - depth
-        dish = min(dish_of(width, ball), deepest)
+        dish = min(dish_of(width, striker), deepest)
         into = np.maximum(depths - dish, SHALLOWEST)
         curve = np.hstack([CRUSHED, NEXT_CELL]) if cells.along > 1 else np.array(CRUSHED)
         folds = stress * wall**2 * np.interp(into * cells.along / depth, *curve)
@@ -156,16 +175,18 @@ def dent_of(
         np.append(forces, JAMMED * forces[-1]),
         np.append(moves, moves[-1]),
         depth * (COMPARED_ROUND if isinstance(section, CircularTube) else COMPARED),
+        takes,
     )
 
 
-def dish_of(width: float, ball: float) -> float:
-    """Depth [m] at which a ball of a radius meets the webs beside a wall of a width [m]; 0 of a pole."""
-    return 0.0 if math.isinf(ball) else ball - math.sqrt(ball**2 - (width / 2.0) ** 2)
+def dish_of(width: float, striker: Striker) -> float:
+    """Depth [m] at which a ball meets the webs beside a wall of a width [m]; 0 of a pole."""
+    ball = striker.radius
+    return ball - math.sqrt(ball**2 - (width / 2.0) ** 2) if striker.is_ball else 0.0
 
 
 def dent_force(depth: Floats, thickness: float, stress: float) -> Floats:
-    """Force of dents of some depths [m] in a round tube with a wall [m] and a flow stress [Pa]; [N]."""
+    """Formula for dents of some depths [m] in a round tube with a wall [m] and a flow stress [Pa]; [N]."""
     return 4.0 * stress * thickness * np.sqrt(2.0 * np.pi * thickness * depth / 3.0)
 
 
@@ -174,7 +195,9 @@ def denting_force(section: RectangularTube, material: Material) -> float:
     return max(CRUSHED[1][:4]) * material.flow_stress * section.thickness**2
 
 
-def left_by_dent(section: CircularTube | RectangularTube, dent: float, depth: float) -> float:
+def left_by_dent(
+    section: CircularTube | RectangularTube, dent: float, depth: float, takes: float = 1.0
+) -> float:
     """Share of the plastic moment that a dent leaves.
 
     Parameters
@@ -183,11 +206,13 @@ def left_by_dent(section: CircularTube | RectangularTube, dent: float, depth: fl
         Of the tube.
     dent, depth
         Of the dent, at most to the middle, and of the section along the force [m].
+    takes
+        As in `Dent`.
     """
     if isinstance(section, RectangularTube):
         return math.exp(-WEAKENS * dent / depth)
     half_arc = math.acos(1.0 - 2.0 * dent / (depth - section.thickness))
-    return math.cos(half_arc / 2.0) - math.sin(half_arc) / 2.0
+    return 1.0 - takes * (1.0 - math.cos(half_arc / 2.0) + math.sin(half_arc) / 2.0)
 
 
 def round_walls_move(depth: Floats, radius: float) -> Floats:
@@ -229,8 +254,8 @@ def left_in_bending(
     there = sum(carries / span for carries, span in zip(held, spans, strict=True))
 
     def too_strong(deep: float) -> float:
-        bends = moment * (left_by_dent(section, deep, depth) * here + there)
+        bends = moment * (left_by_dent(section, deep, depth, dent.takes) * here + there)
         return float(dent.at(np.asarray(deep))) - bends
 
     deepest = (depth - section.thickness) / 2.0
-    return left_by_dent(section, rising_root(too_strong, 0.0, deepest, 0.0), depth)
+    return left_by_dent(section, rising_root(too_strong, 0.0, deepest, 0.0), depth, dent.takes)

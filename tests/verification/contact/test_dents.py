@@ -1,7 +1,8 @@
 """An obstacle dents the wall of a tube: the work of the dent takes the energy of the blow.
 
-A tube that does not bend is struck by a mass m at v.  A round one with the flow stress s and the wall t takes
-(8/3) s t^1.5 (2 pi/3)^0.5 d^1.5 up to the depth d, and its force is then 4 s t^1.5 (2 pi d/3)^0.5; a
+A tube that does not bend is struck by a mass m at v.  A round one with the diameter D, the flow stress s and
+the wall t takes c (8/3) s t^1.5 (2 pi/3)^0.5 d^1.5 from a pole or ball of the radius r up to the depth d, and
+its force is then c 4 s t^1.5 (2 pi d/3)^0.5, with c = 1/2 + (r t)^0.5/D; a
 rectangular one takes s t^2 times the area under the curve of its force.  Tolerance 1 %: the force is straight
 between 40 depths, the face is 0.1 % of the structure's mass, and hinges stretch by some micrometres.  Two
 tubes under one obstacle share the energy.  A pole that bends a rectangular tube sinks into its fold.
@@ -25,6 +26,7 @@ from crumple.structure import plastic_hinges
 
 YOUNG, STRESS, WALL, MASS, SPEED = 210e9, 350e6, 2e-3, 20.0, 6.0
 BLOW = MASS * SPEED**2 / 2.0
+BLUNT = 0.5 + sqrt(50e-3 * WALL) / 60e-3
 TEXT = """
 crumple: 1
 materials:
@@ -54,7 +56,7 @@ def analysis_of(section, obstacle, change=("", "")):
 
 def round_depth(work):
     """Depth [m] of a dent in a round tube that takes some work [J]."""
-    return (work / (8.0 / 3.0 * STRESS * WALL**1.5 * sqrt(2.0 * pi / 3.0))) ** (2.0 / 3.0)
+    return (work / (8.0 / 3.0 * BLUNT * STRESS * WALL**1.5 * sqrt(2.0 * pi / 3.0))) ** (2.0 / 3.0)
 
 
 def square_depth(work):
@@ -87,7 +89,7 @@ def test_the_dent_takes_the_energy_of_a_thrown_obstacle(section, obstacle, depth
     [
         (SQUARE, 1.0, 30e-3, False),
         (SQUARE, 2.5, 30e-3, True),
-        (ROUND, 0.9, 18e-3, False),
+        (ROUND, 0.55, 18e-3, False),
         (ROUND, 1.5, 18e-3, True),
     ],
 )
@@ -116,7 +118,7 @@ def test_the_force_is_that_of_the_dent():
     # the force is the mean since the last output
     middle = (depth[1:] + depth[:-1]) / 2.0
     pressed = (np.diff(depth) > 1e-6) & (middle > 2e-3)
-    expected = 4.0 * STRESS * WALL**1.5 * np.sqrt(2.0 * pi * middle / 3.0)
+    expected = 4.0 * BLUNT * STRESS * WALL**1.5 * np.sqrt(2.0 * pi * middle / 3.0)
     assert pressed.sum() > 20
     np.testing.assert_allclose(force[1:][pressed], expected[pressed], rtol=0.02)
 
@@ -142,7 +144,7 @@ def test_a_driven_pole_dents_by_its_travel():
     (dent,) = result.dents
     assert dent.depth == pytest.approx(15e-3, rel=0.01)
     assert result["energy.external_work"][-1] == pytest.approx(dent.energy, rel=0.02)
-    work = 8.0 / 3.0 * STRESS * WALL**1.5 * sqrt(2.0 * pi / 3.0) * 15e-3**1.5
+    work = 8.0 / 3.0 * BLUNT * STRESS * WALL**1.5 * sqrt(2.0 * pi / 3.0) * 15e-3**1.5
     assert dent.energy == pytest.approx(work, rel=0.01)
 
 

@@ -5,6 +5,10 @@ share m of its moment (`crumple.hinge.dent`):
 
     M(theta) = min(m M_0(0), M_0(theta))
 
+of flat walls.  In a round tube the fold goes on from the dent, and softens with it from the start:
+
+    1/M(theta)^2 = 1/M_0(theta)^2 + (1/m^2 - 1)/M_0(0)^2
+
 A fold of the length l under a pole of the radius R bends until it has the curvature of the pole, at
 phi = l/rho with rho = R + d/2 and the depth d of the tube.  From there on the tube touches the pole along an
 arc rho theta and bends at its ends, with the moment of this fold:
@@ -45,9 +49,12 @@ class DentedLaw(LawInside):
         Any law.
     left
         Share of its first moment that the dent leaves [-].
+    is_round
+        Whether the tube is round.
     """
 
     left: float
+    is_round: bool = False
 
     @property
     def title(self) -> str:
@@ -55,7 +62,9 @@ class DentedLaw(LawInside):
         return f"{self.law.title}, dented: at most {self.left:.3g} of the moment"
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
-        """Kinks [rad]: those of the law inside, and where it falls below the limit."""
+        """Kinks [rad]: those of the law inside, and where it falls below the limit of flat walls."""
+        if self.is_round:
+            return self.law.kinks(sense)
         grid = np.linspace(0.0, math.pi, GRID)
         below = self.law.moment_capacity(grid, sense) < self._limit(sense)
         changes = np.flatnonzero(below[1:] != below[:-1])
@@ -64,8 +73,11 @@ class DentedLaw(LawInside):
 
     def moment_capacity(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Capacity [N m] at a rotation [rad]."""
-        moment: Floats = np.minimum(self.law.moment_capacity(rotation, sense), self._limit(sense))
-        return moment
+        inside, limit = self.law.moment_capacity(rotation, sense), self._limit(sense)
+        if not self.is_round:
+            return np.asarray(np.minimum(inside, limit))
+        lost = 1.0 / limit**2 - (self.left / limit) ** 2
+        return np.asarray(1.0 / np.sqrt(1.0 / inside**2 + lost))
 
     def _limit(self, sense: int) -> float:
         return float(self.left * self.law.moment_capacity(0.0, sense))

@@ -85,7 +85,7 @@ def with_dent(
         if wraps(law, most, sense):
             return WrappedLaw(law, most)
     if not isinstance(structure.section_of(member), RectangularTube) or isinstance(pole, SphereObstacle):
-        return DentedLaw(law, left)
+        return DentedLaw(law, left, isinstance(section, CircularTube))
     assert isinstance(pole, CylinderObstacle)
     assert isinstance(section, RectangularTube)
     force, half = denting_force(section, material), half_fold_length(section, axis)

@@ -8,7 +8,7 @@ import pytest
 from crumple import loads
 from crumple.hinge.bending.dented import DentedLaw, WrappedLaw
 from crumple.hinge.bending.pressed import PressedLaw
-from crumple.hinge.dent import dent_of, left_in_bending
+from crumple.hinge.dent import Striker, dent_of, left_in_bending
 from crumple.hinge.registry import build_law
 from crumple.section import RectangularTube, half_fold_length
 from crumple.structure import dented_tubes, hinge_places, law_uses, plastic_hinges
@@ -48,6 +48,7 @@ POLE = (
 )
 BALL = "type: sphere, point: [400 mm, 0 m, HEIGHT mm], radius: 50 mm"
 HIGH = POLE.replace("HEIGHT", "90")
+STRIKER = Striker(50e-3)
 
 
 def structure_of(section="round", obstacle=HIGH, change=("", "")):
@@ -241,7 +242,7 @@ def test_a_struck_hat_bends_with_its_crown_compressed(roll):
     section, strike = structure.section_of("beam"), strikes_on(structure, "beam")["beam-pole"]
     moments = {sense: float(law.law.moment_capacity(0.0, sense)) for sense in (1, -1)}
     tube = RectangularTube(section.width, section.depth, section.thickness)
-    dent = dent_of(tube, structure.material_of("beam"), tube.depth)
+    dent = dent_of(tube, structure.material_of("beam"), tube.depth, STRIKER)
     left = [left_in_bending(tube, dent, tube.depth, moments[k], strike.spans, strike.held) for k in (1, -1)]
     assert law.left == left[1] != left[0]
 
@@ -272,10 +273,12 @@ def test_an_end_carries_no_more_than_what_holds_it(thickness):
     share = _largest(law) / moment
     assert share < 0.5
     assert left == pytest.approx(
-        left_in_bending(section, dent_of(section, steel, 60e-3), 60e-3, moment, strike.spans, (share, 1.0))
+        left_in_bending(
+            section, dent_of(section, steel, 60e-3, STRIKER), 60e-3, moment, strike.spans, (share, 1.0)
+        )
     )
     assert left > 1.05 * left_in_bending(
-        section, dent_of(section, steel, 60e-3), 60e-3, moment, strike.spans, (1.0, 1.0)
+        section, dent_of(section, steel, 60e-3, STRIKER), 60e-3, moment, strike.spans, (1.0, 1.0)
     )
 
 
@@ -307,7 +310,7 @@ def test_a_limb_with_a_free_end_holds_no_beam(more, held):
     section, steel = structure.section_of("beam"), structure.material_of("beam")
     shares = (1.0 if held else _largest(law) / moment, 1.0)
     assert left == pytest.approx(
-        left_in_bending(section, dent_of(section, steel, 60e-3), 60e-3, moment, strike.spans, shares)
+        left_in_bending(section, dent_of(section, steel, 60e-3, STRIKER), 60e-3, moment, strike.spans, shares)
     )
 
 
@@ -329,7 +332,9 @@ def test_a_corner_carries_the_moment_of_its_law_in_its_sense(above, closes):
     share = moments[0 if closes else 1] / moment
     section, steel = structure.section_of("beam"), structure.material_of("beam")
     assert left == pytest.approx(
-        left_in_bending(section, dent_of(section, steel, 60e-3), 60e-3, moment, strike.spans, (share, 1.0))
+        left_in_bending(
+            section, dent_of(section, steel, 60e-3, STRIKER), 60e-3, moment, strike.spans, (share, 1.0)
+        )
     )
 
 
@@ -380,11 +385,11 @@ def test_a_tube_spans_beyond_a_kink_that_nothing_holds(right, drop, fix, more, g
     # the mitre, where nothing keeps it in shape, carries less than the hat
     mitre = [hinge.law for hinge in plastic_hinges(structure) if hinge.name == "corner-kink"]
     held = (1.0, min([_largest(law) / moment for law in mitre], default=1.0))
-    deep = left_in_bending(tube, dent_of(tube, steel, 60e-3), 60e-3, moment, strike.spans, held)
+    deep = left_in_bending(tube, dent_of(tube, steel, 60e-3, STRIKER), 60e-3, moment, strike.spans, held)
     assert (left > 1.2 * deep) == goes_on
     if goes_on:
         assert left == pytest.approx(
-            left_in_bending(tube, dent_of(tube, steel, 60e-3), 60e-3, moment, further, (1.0, 1.0))
+            left_in_bending(tube, dent_of(tube, steel, 60e-3, STRIKER), 60e-3, moment, further, (1.0, 1.0))
         )
     else:
         assert left == pytest.approx(deep)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
-from crumple.hinge.dent import LEAST_BALL, ONE_CELL, Cells, Dent, dent_of, left_by_dent
+from crumple.hinge.dent import LEAST_BALL, ONE_CELL, Cells, Dent, Striker, dent_of, left_by_dent
 from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import AXES, Axis, CircularTube, RectangularTube, Section, half_fold_length
@@ -63,7 +63,8 @@ def left_by(structure: StructureParts, tube: DentedTube, depth: float) -> float:
     """Share of the plastic moment that a dent of some depth [m] leaves, at most one to the middle."""
     section = dented_walls(structure, tube.member)
     assert section is not None
-    return left_by_dent(section, min(depth, (tube.depth - section.thickness) / 2.0), tube.depth)
+    deep = min(depth, (tube.depth - section.thickness) / 2.0)
+    return left_by_dent(section, deep, tube.depth, tube.dent.takes)
 
 
 def dented_tubes(structure: StructureParts, obstacle: str) -> tuple[DentedTube, ...]:
@@ -177,8 +178,9 @@ def _dented(structure: StructureParts, member: str, place: StruckPlace) -> Dente
     nodes = _nodes_in(structure, member, place.station)
     cells = _cells(structure.section_of(member), "y" if depth_along_y else "z")
     spec = structure.obstacles[place.obstacle]
-    ball = spec.radius if isinstance(spec, SphereObstacle) else math.inf
-    dent = dent_of(section, dented_metal(structure, member), depth, cells, ball)
+    assert isinstance(spec, CylinderObstacle | SphereObstacle)
+    striker = Striker(spec.radius, isinstance(spec, SphereObstacle))
+    dent = dent_of(section, dented_metal(structure, member), depth, striker, cells)
     return DentedTube(place.obstacle, member, place.station, nodes, outwards, depth, dent)
 
 
