@@ -26,6 +26,8 @@ THIN = 0.7
 """Share of the measure of a thin square tube that does not soften it about its diagonal: r for t -> 0."""
 SLENDERNESS = 0.033
 """Wall over mean side at which half of this is left."""
+BESIDE_A_CLAMP = 0.5
+"""What is left of it beside a clamp or joint, read off seven tubes that shells bend there."""
 EVENNESS = 4
 """Power of q; even, so that the sense of a rotation does not matter."""
 

@@ -20,9 +20,11 @@ from crumple.hinge import (
     SpatialHingeRecord,
     Stop,
 )
+from crumple.hinge.bending.edge_fold import BESIDE_A_CLAMP
 from crumple.hinge.record.sampling import TOO_STEEP
 from crumple.section import Axis
 from crumple.section.section import in_mm
+from crumple.structure.hinges.automatic import near_fold
 from crumple.structure.hinges.corner.press import with_corner_press
 from crumple.structure.hinges.corner.shift import with_corner_shift
 from crumple.structure.hinges.corner.slip import with_corner_slip
@@ -211,6 +213,8 @@ def spatial_record_of(
         torsion=torsion,
         crush=laws_of_loads(structure, place).get("crush"),
     )
+    if near_fold(structure, place.member, place.name).fold == "clamped":
+        record = replace(record, edge_relief=BESIDE_A_CLAMP * record.edge_relief)
     corner = turned_corner(structure, place.name, place.keys.axes)
     squash = metal[1].yield_stress * metal[0].area
     if corner is None:
