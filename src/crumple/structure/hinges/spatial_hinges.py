@@ -205,10 +205,11 @@ def flattened(
     first = softens * float(twist.positive.moment[0])
     curves = [curve for one in bending for curve in (one.positive, one.negative)]
     works = [first * twist.positive.rotation, *(curve.rotation * curve.moment[0] for curve in curves)]
-    work = np.unique(np.concatenate(works))
-    left = np.mean([_left(curve, work) for curve in curves], axis=0)
-    torque = np.interp(work / first, twist.positive.rotation, twist.positive.moment) * left**power
-    envelope = Envelope(work / first, torque)
+    # works that differ by rounding are of one rotation
+    turns = np.unique(np.concatenate(works) / first)
+    left = np.mean([_left(curve, first * turns) for curve in curves], axis=0)
+    torque = np.interp(turns, twist.positive.rotation, twist.positive.moment) * left**power
+    envelope = Envelope(turns, torque)
     return replace(twist, positive=envelope, negative=envelope)
 
 
