@@ -313,5 +313,5 @@ def inaccurate(hinges: dict[str, HingeSummary], largest: float) -> list[str]:
         return []
     return [
         f"The rotations of {number} of {len(errors)} hinges err by up to {math.degrees(worst):.2g} deg "
-        "(estimated): ask for a tighter accuracy."
+        "(estimated): give a smaller analysis.multibody.accuracy."
     ]

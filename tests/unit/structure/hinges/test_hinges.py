@@ -1,9 +1,12 @@
 """Where hinges lie, what they stand for, and which law they get."""
 
+import math
+
 import numpy as np
 import pytest
 
-from crumple.hinge import Form, Freedom, SofteningVariable
+from crumple.hinge import Form, Freedom, HingeRecord, SofteningVariable
+from crumple.hinge.record.record import Envelope
 from crumple.section import fold_distance
 from crumple.structure import (
     Structure,
@@ -12,6 +15,7 @@ from crumple.structure import (
     plastic_hinges,
     shares_left_out,
 )
+from crumple.structure.hinges.spatial_hinges import flattened
 
 
 def placed(keys):
@@ -238,3 +242,19 @@ def test_a_hinge_without_a_law_has_the_formula_of_its_shape(keys):
     assert placed(keys)[0].law.name == "circular"
     keys["members"]["arm"]["hinges"][0]["law"] = "constant"
     assert len(hinge_places(Structure(**keys))) == 1
+
+
+def test_works_that_differ_by_rounding_are_of_one_rotation_of_the_twist():
+    """A hat under a pole: two works next to each other gave one rotation twice, which no curve may have."""
+
+    def record(capacity, turn):
+        curve = Envelope(np.array([0.0, turn, math.pi]), capacity * np.array([1.0, 0.9, 0.4]))
+        return HingeRecord(Form.SET_VALUED, SofteningVariable.PEAK, curve, curve)
+
+    for turn in np.linspace(0.1, 0.3, 41):
+        twist, first = record(3.0, turn), 7.0
+        # the next number after the work of the twist there
+        bending = record(first, np.nextafter(3.0 * turn, 1.0) / first)
+        flat = flattened(twist, [bending], 1.5)
+        assert np.all(np.diff(flat.positive.rotation) > 0.0)
+        assert flat.positive.moment[0] == pytest.approx(3.0)
