@@ -41,6 +41,8 @@ USED = 1.1
 FLANGE, PRESSED_TURN = 0.3, math.radians(3.0)
 """Share of a fold's moment that its compression would take if it turned about its tension flange, and turn
 of a hinge above it, from which a caution says so."""
+HELD = 0.1
+"""Share of a fold's moment that tension would give it in the mean, from which a caution says so."""
 LEAST_TURN = math.radians(1.0)
 """Rotation of a joint below which no fold of any section softens: its law is not asked."""
 BEND = ", or let members bend with analysis.multibody.members: elastic"
@@ -205,16 +207,53 @@ def folds_between(structure: Structure, solved: Solved) -> Iterator[Caution]:
 
 
 def pressed_folds(structure: Structure, solved: Solved) -> Iterator[Caution]:
-    """One caution for all hinges that fold under compression of which a fold of walls would lose much more.
+    """Cautions for hinges whose folds an axial force presses, or holds, more than the whole section says.
 
     In shells a fold that has softened turns about its tension flange, so that compression N takes N b/2 of
     its moment, b the depth between the flanges; the walls of a whole section lose less, and a hinge that
-    cannot shorten loses nothing.  Laws of corners know of it, and so do hinges with that coupling.
+    cannot shorten loses nothing.  Laws of corners know of it, and so do hinges with that coupling.  Tension
+    gives as much, up to the moment of the section that has not softened.
+    """
+    pressed: dict[str, float] = {}
+    held: dict[str, float] = {}
+    for name, lost, softened, flow in _axial_shares(structure, solved):
+        if float(flow[lost > FLANGE].sum()) > PRESSED_TURN:
+            pressed[name] = float(lost[flow > 0.0].max())
+        given = np.minimum(-lost, softened).clip(0.0)
+        if flow.sum() > PRESSED_TURN and given @ flow > HELD * flow.sum():
+            held[name] = float(given @ flow / flow.sum())
+    if pressed:
+        one, most = len(pressed) == 1, max(pressed.values())
+        text = (
+            f"{named('Hinge', list(pressed))} {'folds' if one else 'fold'} under compression that would take "
+            f"up to {100.0 * most:.0f} % of {'its' if one else 'their'} moment about the tension flange, "
+            "about which softened folds of tubes turn in shells. The interaction of the whole section takes "
+            "less (and nothing where a hinge has no 'axial'): forces may be too large, and the structure may "
+            "fold elsewhere. Compare with shells."
+        )
+        for name, value in pressed.items():
+            yield Caution("pressed_fold", value, FLANGE, "1", f"hinge {name}", text)
+    if held:
+        one, most = len(held) == 1, max(held.values())
+        text = (
+            f"{named('Hinge', list(held))} {'folds' if one else 'fold'} under tension, which keeps walls "
+            f"from folding in shells: up to {100.0 * most:.0f} % of {'its' if one else 'their'} moment that "
+            "the law has lost would be there in the mean. Rotations may be too large by as much. Compare "
+            "with shells."
+        )
+        for name, value in held.items():
+            yield Caution("held_fold", value, HELD, "1", f"hinge {name}", text)
+
+
+def _axial_shares(structure: Structure, solved: Solved) -> Iterator[tuple[str, Floats, Floats, Floats]]:
+    """Of every fold between outputs: what compression takes of its largest moment about the tension flange.
+
+    The smaller of both outputs; negative: what tension gives.  With what the fold has lost of that moment,
+    and its rotation [rad].
     """
     poses = solved.poses
     if not isinstance(poses, SpatialPoses) or poses.rows < 2:
         return
-    found: dict[str, float] = {}
     histories = {history.hinge.name: history for history in solved.hinges}
     for number, connection in enumerate(poses.linkage.connections):
         hinge = connection.hinge
@@ -224,21 +263,14 @@ def pressed_folds(structure: Structure, solved: Solved) -> Iterator[Caution]:
         pressed = np.einsum("nk,nk->n", on_second(poses, number).force, np.broadcast_to(axis, (len(axis), 3)))
         section = structure.section_of(hinge.member)
         arm = min(section.bending_depth(about) for about in AXES) / 2.0 - section.thickness / 2.0
-        lost = np.minimum(pressed[1:], pressed[:-1]) * arm / float(hinge.record.positive.moment.max())
-        flow = np.abs(np.diff(histories[hinge.name].values("plastic_rotation")))
-        if float(flow[lost > FLANGE].sum()) > PRESSED_TURN:
-            found[hinge.name] = float(lost[flow > 0.0].max())
-    if found:
-        one, most = len(found) == 1, max(found.values())
-        text = (
-            f"{named('Hinge', list(found))} {'folds' if one else 'fold'} under compression that would take "
-            f"up to {100.0 * most:.0f} % of {'its' if one else 'their'} moment about the tension flange, "
-            "about which softened folds of tubes turn in shells. The interaction of the whole section takes "
-            "less (and nothing where a hinge has no 'axial'): forces may be too large, and the structure may "
-            "fold elsewhere. Compare with shells."
-        )
-        for name, value in found.items():
-            yield Caution("pressed_fold", value, FLANGE, "1", f"hinge {name}", text)
+        largest = float(hinge.record.positive.moment.max())
+        smaller = np.minimum(np.abs(pressed[1:]), np.abs(pressed[:-1]))
+        alike = np.sign(pressed[1:]) == np.sign(pressed[:-1])
+        lost = np.where(alike, np.sign(pressed[1:]) * smaller, 0.0) * arm / largest
+        history = histories[hinge.name]
+        capacity = history.values("capacity")
+        softened = 1.0 - capacity[1:] / capacity.max()
+        yield hinge.name, lost, softened, np.abs(np.diff(history.values("plastic_rotation")))
 
 
 def _knows_compression(structure: Structure, hinge: PlacedHinge) -> bool:

@@ -59,6 +59,7 @@ AT_OUTPUTS = frozenset(
         "axial_tension",
         "buckling",
         "deep_dent",
+        "held_fold",
         "node_speed",
         "overloaded_section",
         "pressed_beyond",

@@ -169,10 +169,10 @@ def test_what_yields_between_hinges_by_more_than_a_fold_takes_is_a_caution(hinge
         assert largest / 2500.0 < cautions[0].value < largest / 2300.0
 
 
-def pressed(force, coupling="section", speed=4.0):
+def pressed(force, coupling="section", speed=4.0, law=None, code="pressed_fold"):
     """A clamped column with 50 kg on its end, thrown across under a constant force along it."""
     hinge = {"name": "foot", "at": 0.05, "axes": ("y", "z"), "coupling": coupling}
-    hinge |= {"law": {"type": "constant", "moment": 4e3}}
+    hinge |= {"law": law or {"type": "constant", "moment": 4e3}}
     hinge |= {"axes": ("y",), "axial": True} if coupling == "tension-flange" else {}
     structure = Structure(
         materials=rails().materials,
@@ -186,7 +186,7 @@ def pressed(force, coupling="section", speed=4.0):
     )
     result = solve_multibody(structure, Run(0.03, 0.001, MultibodySettings(kernel="spatial")))
     assert result.status.ok
-    return result, {c.place: c.value for c in result.cautions if c.code == "pressed_fold"}
+    return result, {c.place: c.value for c in result.cautions if c.code == code}
 
 
 def test_a_fold_that_would_lose_much_of_its_moment_by_compression_is_a_caution():
@@ -206,3 +206,15 @@ def test_small_compression_tension_and_folds_that_know_of_it_give_no_caution():
     flange, cautions = pressed(80e3, coupling="tension-flange")
     assert flange.hinges["foot"].rotation_max > 0.1
     assert not cautions
+
+
+def test_a_fold_that_tension_would_hold_is_a_caution():
+    """Of a law that falls by half at once the tension would give back the share of its flange."""
+    softens = {"type": "table", "rotation": (0.0, 0.001, 3.2), "moment": (4e3, 2e3, 2e3)}
+    result, cautions = pressed(-60e3, law=softens, code="held_fold")
+    assert cautions["hinge foot"] == pytest.approx(60e3 * 0.021 / 4e3, rel=0.05)
+    assert any("folds under tension" in text for text in result.warnings)
+    # no more than what is lost, and nothing where nothing is
+    assert pressed(-150e3, law=softens, code="held_fold")[1]["hinge foot"] == pytest.approx(0.5, rel=0.02)
+    assert not pressed(-60e3, code="held_fold")[1]
+    assert not pressed(-15e3, law=softens, code="held_fold")[1]
