@@ -1,8 +1,7 @@
 """Impossible results: violated laws of mechanics, and states beyond the capacity of the members.
 
 A violation (falling dissipation, a rebound without an energy source) ends a run with a status.  A caution is
-read before the result: forces that no wall carries, speeds that the energy does not explain, energy that
-vanished where bodies are rigid, folds that are closed.  Formulas and limits: docs/theory/result_checks.md.
+read before the result: forces that no wall carries, and the like.  Formulas: docs/theory/result_checks.md.
 """
 
 from __future__ import annotations

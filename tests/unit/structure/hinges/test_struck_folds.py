@@ -56,6 +56,11 @@ def structure_of(section="round", obstacle=HIGH, change=("", "")):
     return loads(text.replace(*change).replace("LOWER", "0")).structure
 
 
+def share_left(section, steel, moment, spans, held):
+    dent = dent_of(section, steel, 60e-3, STRIKER)
+    return left_in_bending(section, dent, 60e-3, moment, spans, held)
+
+
 def dented(structure):
     return [tube.member for tube in dented_tubes(structure, "pole")]
 
@@ -272,14 +277,8 @@ def test_an_end_carries_no_more_than_what_holds_it(thickness):
     # the beam's first node is on the post, the last one clamped
     share = _largest(law) / moment
     assert share < 0.5
-    assert left == pytest.approx(
-        left_in_bending(
-            section, dent_of(section, steel, 60e-3, STRIKER), 60e-3, moment, strike.spans, (share, 1.0)
-        )
-    )
-    assert left > 1.05 * left_in_bending(
-        section, dent_of(section, steel, 60e-3, STRIKER), 60e-3, moment, strike.spans, (1.0, 1.0)
-    )
+    assert left == pytest.approx(share_left(section, steel, moment, strike.spans, (share, 1.0)))
+    assert left > 1.05 * share_left(section, steel, moment, strike.spans, (1.0, 1.0))
 
 
 LIMB = "  limb: {nodes: [left, out], section: round, material: steel}\n"
@@ -309,9 +308,7 @@ def test_a_limb_with_a_free_end_holds_no_beam(more, held):
     law = build_law("clamped_tube", structure.section_of("post"), structure.material_of("post"))
     section, steel = structure.section_of("beam"), structure.material_of("beam")
     shares = (1.0 if held else _largest(law) / moment, 1.0)
-    assert left == pytest.approx(
-        left_in_bending(section, dent_of(section, steel, 60e-3, STRIKER), 60e-3, moment, strike.spans, shares)
-    )
+    assert left == pytest.approx(share_left(section, steel, moment, strike.spans, shares))
 
 
 @pytest.mark.parametrize(("above", "closes"), [(True, True), (False, False)])
@@ -331,11 +328,7 @@ def test_a_corner_carries_the_moment_of_its_law_in_its_sense(above, closes):
     assert moments[1] > 2.0 * moments[0]
     share = moments[0 if closes else 1] / moment
     section, steel = structure.section_of("beam"), structure.material_of("beam")
-    assert left == pytest.approx(
-        left_in_bending(
-            section, dent_of(section, steel, 60e-3, STRIKER), 60e-3, moment, strike.spans, (share, 1.0)
-        )
-    )
+    assert left == pytest.approx(share_left(section, steel, moment, strike.spans, (share, 1.0)))
 
 
 KINKED = """
@@ -385,12 +378,10 @@ def test_a_tube_spans_beyond_a_kink_that_nothing_holds(right, drop, fix, more, g
     # the mitre, where nothing keeps it in shape, carries less than the hat
     mitre = [hinge.law for hinge in plastic_hinges(structure) if hinge.name == "corner-kink"]
     held = (1.0, min([_largest(law) / moment for law in mitre], default=1.0))
-    deep = left_in_bending(tube, dent_of(tube, steel, 60e-3, STRIKER), 60e-3, moment, strike.spans, held)
+    deep = share_left(tube, steel, moment, strike.spans, held)
     assert (left > 1.2 * deep) == goes_on
     if goes_on:
-        assert left == pytest.approx(
-            left_in_bending(tube, dent_of(tube, steel, 60e-3, STRIKER), 60e-3, moment, further, (1.0, 1.0))
-        )
+        assert left == pytest.approx(share_left(tube, steel, moment, further, (1.0, 1.0)))
     else:
         assert left == pytest.approx(deep)
         assert bool(mitre) == (not more)
