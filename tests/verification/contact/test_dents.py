@@ -84,6 +84,14 @@ def test_the_dent_takes_the_energy_of_a_thrown_obstacle(section, obstacle, depth
     assert result["obstacle.pole.dent"].max() == pytest.approx(dent.depth, rel=1e-6)
 
 
+def test_a_ball_dishes_a_flat_wall_before_it_meets_the_webs():
+    """A dish takes 3 s t d^2/2; a pole would be stopped at a fifth of this depth."""
+    light = THROWN.replace(f"{MASS:g} kg", f"{MASS / 4.0:g} kg")
+    result = crumple.solve(analysis_of(SQUARE, f"{BALL}, {light}"))
+    (dent,) = result.dents
+    assert dent.depth == pytest.approx(sqrt(2.0 * BLOW / 4.0 / (3.0 * STRESS * WALL)), rel=0.01)
+
+
 @pytest.mark.parametrize(
     ("section", "faster", "limit", "deep"),
     [

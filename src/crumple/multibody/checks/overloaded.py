@@ -248,8 +248,8 @@ def pressed_folds(structure: Structure, solved: Solved) -> Iterator[Caution]:
 def _axial_shares(structure: Structure, solved: Solved) -> Iterator[tuple[str, Floats, Floats, Floats]]:
     """Of every fold between outputs: what compression takes of its largest moment about the tension flange.
 
-    The smaller of both outputs; negative: what tension gives.  With what the fold has lost of that moment,
-    and its rotation [rad].
+    The smaller of both outputs, none if it changes its sense; negative: what tension gives.  With what the
+    fold has lost of that moment, and its rotation [rad].
     """
     poses = solved.poses
     if not isinstance(poses, SpatialPoses) or poses.rows < 2:
@@ -264,9 +264,8 @@ def _axial_shares(structure: Structure, solved: Solved) -> Iterator[tuple[str, F
         section = structure.section_of(hinge.member)
         arm = min(section.bending_depth(about) for about in AXES) / 2.0 - section.thickness / 2.0
         largest = float(hinge.record.positive.moment.max())
-        smaller = np.minimum(np.abs(pressed[1:]), np.abs(pressed[:-1]))
-        alike = np.sign(pressed[1:]) == np.sign(pressed[:-1])
-        lost = np.where(alike, np.sign(pressed[1:]) * smaller, 0.0) * arm / largest
+        smaller = np.median([pressed[1:], pressed[:-1], np.zeros(len(pressed) - 1)], axis=0)
+        lost = smaller * arm / largest
         history = histories[hinge.name]
         capacity = history.values("capacity")
         softened = 1.0 - capacity[1:] / capacity.max()

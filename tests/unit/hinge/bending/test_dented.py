@@ -45,6 +45,14 @@ def test_the_limit_ends_where_the_law_falls_below_it():
     np.testing.assert_allclose(ROUND.moment_capacity(own), limit, rtol=1e-14)
 
 
+def test_the_fold_of_a_round_tube_softens_from_the_dent_on():
+    dented, first = DentedLaw(ROUND, 0.7, is_round=True), float(ROUND.moment_capacity(0.0))
+    own, found = ROUND.moment_capacity(GRID), dented.moment_capacity(GRID)
+    np.testing.assert_allclose(1.0 / found**2 - 1.0 / own**2, (1.0 / 0.7**2 - 1.0) / first**2)
+    assert found[0] == pytest.approx(0.7 * first)
+    assert dented.kinks() == ROUND.kinks()
+
+
 def test_what_does_not_change():
     dented = DentedLaw(ROUND, 0.7)
     for name in ("name", "source", "validity", "elastic_stiffness", "softening_variable", "rate", "stop"):

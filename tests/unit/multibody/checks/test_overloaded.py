@@ -218,3 +218,4 @@ def test_a_fold_that_tension_would_hold_is_a_caution():
     assert pressed(-150e3, law=softens, code="held_fold")[1]["hinge foot"] == pytest.approx(0.5, rel=0.02)
     assert not pressed(-60e3, code="held_fold")[1]
     assert not pressed(-15e3, law=softens, code="held_fold")[1]
+    assert not pressed(-60e3, law=softens, speed=2.0, code="held_fold")[1]

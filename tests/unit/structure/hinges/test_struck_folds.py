@@ -166,6 +166,7 @@ def test_a_thick_round_tube_bends_around_a_wide_pole(radius, kind):
     # as thin as before it is dented, however wide the pole
     thin = structure_of("round", pole)
     assert type(law_of(thin, place)) is DentedLaw
+    assert law_of(thin, place).is_round
 
 
 def test_a_tube_that_is_free_to_turn_at_its_ends_bends_before_it_is_dented_deeply():
