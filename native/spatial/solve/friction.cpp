@@ -63,32 +63,20 @@ bool NewtonSolver::friction_holds(double& slope) {
     return presses_ || !searched;
 }
 
-// Contacts may take the load in turns, because each is pressed while the friction of another is missing: then all that took part are closed,
-// and those opened again, one by one, that would have to pull while none changes between sticking and sliding.  False if friction does not
-// agree with the normal impulses then either.
+// Contacts may take the load in turns, because each is pressed while the friction of another is missing: then all that took part are closed.
+// False if friction does not agree with the normal impulses then either.
 bool NewtonSolver::press_together(double& slope) {
     const double* impulse = p_.impulse.data() + p_.contact_rows();
-    const size_t n = pressed_.size();
     for (int k = 0; k < most_searched; k++) {
         take();
-        for (size_t i = 0; i < n; i++) {
+        for (size_t i = 0; i < pressed_.size(); i++) {
             double& rate = p_.w[at(p_.start(contact_link(i)))];
             if (pressed_[i]) rate = std::min(rate, -rate_tolerance * p_.speed);
         }
         solve_once();
         follow_friction();
-        bool turns = false;
-        size_t pulls = n;
-        double most = 0;
-        for (size_t i = 0; i < n; i++) {
-            if (stop_reversing(contact_link(i)) || (pressed_[i] && slides(i, p_.w) != slides(i, p_.w_next))) turns = true;
-            if (!pressed_[i] || impulse[p_.contacts.rows() * i] <= most) continue;
-            most = impulse[p_.contacts.rows() * i];
-            pulls = i;
-        }
-        if (turns) continue;
-        if (pulls == n && balanced(slope) && p_.contacts.limits_hold(impulse)) return true;
-        if (pulls < n) pressed_[pulls] = false;
+        for (size_t i = 0; i < pressed_.size(); i++) stop_reversing(contact_link(i));
+        if (balanced(slope) && p_.contacts.limits_hold(impulse)) return true;
     }
     return false;
 }

@@ -211,13 +211,11 @@ bool NewtonSolver::reverses(size_t link) {
     return along < 0;
 }
 
-// Sets the tangential rates of a contact that would reverse its slip to zero first; whether it would.
-bool NewtonSolver::stop_reversing(size_t link) {
+// Sets the tangential rates of a contact that would reverse its slip to zero first.
+void NewtonSolver::stop_reversing(size_t link) {
     const double *w = &p_.w[at(p_.start(link))], width = p_.contacts.frozen(at(p_.connections[link].index)).width;
     double* next = &p_.w_next[at(p_.start(link))];
-    const bool turns = p_.contacts.rows() == 3 && std::hypot(w[1], w[2]) > width && w[1] * next[1] + w[2] * next[2] < 0;
-    if (turns) next[1] = next[2] = 0;
-    return turns;
+    if (p_.contacts.rows() == 3 && std::hypot(w[1], w[2]) > width && w[1] * next[1] + w[2] * next[2] < 0) next[1] = next[2] = 0;
 }
 
 // Takes the full Newton step with two exceptions: a hinge that would reverse is set to zero rates first, and of neighbouring locked

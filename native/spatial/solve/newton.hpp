@@ -56,7 +56,7 @@ private:
     bool balanced(double& slope);
     void take_full_step();
     bool reverses(size_t link);
-    bool stop_reversing(size_t link);
+    void stop_reversing(size_t link);
     double search(double slope_end);
     bool settled(double& slope);
     void read_unknowns(size_t link, const double* x, double* w, double* impulse) const;
