@@ -305,6 +305,9 @@ nb::dict to_dict(const Simulation& sim, const Record& r) {
     d["joint_force"] = to_array(r.joint_force, {n, m.joints.size(), 6});
     d["obstacle_force"] = to_array(r.obstacle_force, {n, m.contact.obstacles.size(), 3});
     d["energy"] = columns(r.energy, {n});
+    std::vector<double> along;
+    for (const SpatialHingeState& s : sim.state().hinge) along.insert(along.end(), {s.most_pressed, s.most_pulled});
+    d["axial_most"] = to_array(along, {m.hinges.size(), 2});
     d["summary"] = columns(sim.summary(), {m.hinges.size()});
     d["outcome"] = static_cast<int>(r.outcome);
     d["reason"] = r.reason;

@@ -149,11 +149,13 @@ SpatialHinge make_hinge(const nb::dict& d) {
                                             "shares of a capacity that is gone are below 1, at increasing rotations"),
                                 entry<int>(c, "driver"),
                                 {make_spread(c, "positive_spread"), make_spread(c, "negative_spread")},
-                                entry<double>(c, "softens")});
+                                entry<double>(c, "softens"),
+                                entry<double>(c, "flange")});
         const Component& last = h.components.back();
         spreads = spreads || !last.spread[0].values().empty() || !last.spread[1].values().empty();
         require(last.freedom >= 0 && last.freedom < 6, "a freedom is one of six");
         require(last.softens > 0 && std::isfinite(last.softens), "a component has a positive weight in the measure of softening");
+        require(last.flange >= 0 && std::isfinite(last.flange), "a flange is at no negative distance");
         require(form != 1 || (last.law.stiffness > 0 && std::isfinite(last.law.stiffness)), "an elastic hinge needs a stiffness");
         (last.freedom < 3 ? slips : turns)++;
         driven = driven || last.driver >= 0;

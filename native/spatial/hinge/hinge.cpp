@@ -122,6 +122,7 @@ void freeze_separate(const SpatialHinge& hinge, const SpatialHingeState& s, cons
         const hinge::Hinge& one = law_of(hinge, k);
         hinge::FrozenHinge& c = f.component[k];
         c = hinge::freeze(one, s.component[k], {f.h, f.late}, q0[k], f.w0[k], w1[k], f.hint[k]);
+        hold_by_tension(hinge, s.tension, hinge::rate_factor(one, (f.w0[k] + w1[k]) / 2), f, k);
         e[k] = s.component[k].plastic;
         flow[k] = f.h * (f.w0[k] + w1[k]) / 2;
         if (form_of(hinge) == Form::elastic_plastic) {

@@ -43,6 +43,7 @@ struct Component {
     // it has flowed so far (no points: all of it).  Flow up to the end of the curve of its sense does not soften the hinge.
     hinge::Curve spread[2];
     double softens = 1;  // weight of its rotation in the measure of softening, over that of its initial capacity
+    double flange = 0;   // distance [m] of the flange about which its fold turns; tension acts there against the fold, see `hold_by_tension`
 };
 
 // Parameters of one hinge.  All components have the form and softening of the first one.
@@ -71,6 +72,8 @@ struct SpatialHingeState {
     double fracture_moment = 0;  // resultant moment just before fracture [N m]
     double fracture_energy = 0;  // elastic energy released at fracture [J]; part of the dissipated energy
     double torque_left = 1, torque_aim = 1;  // share of the torque that shear forces leave, followed in time, and of the last step's
+    double tension = 0, tension_aim = 0;     // axial force [N], likewise
+    double most_pressed = 0, most_pulled = 0;  // largest of it so far in either sense [N]
     bool sliding = false;
 };
 
@@ -136,6 +139,10 @@ double impulse_scale(const SpatialHinge& hinge, const FrozenSpatialHinge& f, con
 void capacity_sensitivity(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* w, double* derivative);
 // share of the torque that a shear force (local y, z) [N] leaves
 double left_by_shear(const SpatialHinge& hinge, double along_y, double along_z);
+// Capacities of a fold that has softened, which turns about one flange: tension there works against it.  By a distance d of the flange from
+// the axis and a tension N its moment grows by N d, up to that of the section that has not softened; by a part of N d while it has lost a
+// small part of that.  `factor`: of the rate, on all capacities.
+void hold_by_tension(const SpatialHinge& hinge, double tension, double factor, FrozenSpatialHinge& f, int k);
 // updates the state variables; `turn` (n): the rotations and slip over the step, h (w0 + w1)/2
 void commit(const SpatialHinge& hinge, const FrozenSpatialHinge& f, SpatialHingeState& state, double t0, const double* q0,
             const double* w1, double* turn);

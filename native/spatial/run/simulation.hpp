@@ -74,6 +74,7 @@ public:
     size_t components() const { return state_.rotation.size(); }
     Stepper& stepper() { return stepper_; }
     State& state() { return state_; }
+    const State& state() const { return state_; }
     // Adds velocities and impulses at the centres of mass; returns the kinetic energy lost in making them compatible with the joints.
     // After the start the added energy counts as external work.
     double set_motion(const Twist* velocity, const Twist* impulse);

@@ -71,7 +71,7 @@ bool EndOfStep::commit(State& s, double h, bool search) {
     turn_hinges(s);
     work_of_loads(s, h);
     show_forces(s, h);
-    if (!s.contact.impact) leave_to_torque(s, h);
+    if (!s.contact.impact) follow_forces(s, h);
     for (size_t i = 0; i < p_.end.size(); i++) {
         s.acceleration[i] = p_.stage.quasi_static ? Twist{} : (1 / h) * (p_.velocity[i] - s.velocity[i]);
         s.velocity[i] = p_.stage.quasi_static ? Twist{} : p_.velocity[i];
@@ -122,12 +122,17 @@ void EndOfStep::turn_hinges(State& s) {
     }
 }
 
-// What shear forces leave of torques, followed without vibration that is not resolved: with the forces of single steps, torques and shear
-// forces would keep each other in vibration.
-void EndOfStep::leave_to_torque(State& s, double h) {
+// Forces that change what a hinge carries, the tension and what shear forces leave of the torque, followed without vibration that is not
+// resolved: with those of single steps, torques and shear forces would keep each other in vibration.
+void EndOfStep::follow_forces(State& s, double h) {
     for (size_t j = 0; j < p_.model.hinges.size(); j++) {
         const Vec3 force = s.joint_force[at(p_.model.hinge_joint[j])].v;
         SpatialHingeState& hinge = s.hinge[j];
+        // on the second body
+        hinge.tension_aim = -force.x;
+        hinge.tension += p_.followed(h) * (hinge.tension_aim - hinge.tension);
+        hinge.most_pressed = std::max(hinge.most_pressed, -hinge.tension);
+        hinge.most_pulled = std::max(hinge.most_pulled, hinge.tension);
         hinge.torque_aim = left_by_shear(p_.model.hinges[j], force.y, force.z);
         hinge.torque_left += p_.followed(h) * (hinge.torque_aim - hinge.torque_left);
     }

@@ -17,7 +17,7 @@ public:
 private:
     void work_on_links(State& s, double h);
     void turn_hinges(State& s);
-    void leave_to_torque(State& s, double h);
+    void follow_forces(State& s, double h);
     void work_of_loads(State& s, double h);
     bool project_positions(State& s, double h);
     bool meets() const;

@@ -174,8 +174,9 @@ void Stepper::freeze(const State& s, double h) {
         const int hinge = p_.hinge_index(c);
         if (hinge < 0) continue;
         const size_t held = at(p_.system.links()[c].held), k = at(p_.component[at(hinge)]);
-        // the share of the torque at the middle of the step
+        // the axial force and the share of the torque at the middle of the step
         SpatialHingeState state = s.hinge[at(hinge)];
+        state.tension += p_.followed(h / 2) * (state.tension_aim - state.tension);
         state.torque_left += p_.followed(h / 2) * (state.torque_aim - state.torque_left);
         p_.frozen[at(hinge)] = spatial::freeze(p_.model.hinges[at(hinge)], state, {h, p_.end_weight()}, &s.turned[k], &p_.rate0[first + held], &p_.w[first + held]);
         spatial::widen(p_.model.hinges[at(hinge)], p_.frozen[at(hinge)], p_.least_width(p_.model.hinges[at(hinge)]));

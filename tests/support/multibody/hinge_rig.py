@@ -46,6 +46,7 @@ def component(freedom, positive, negative=None, **more):
         "worn_share": [],
         "driver": -1,
         "softens": 1.0,
+        "flange": 0.0,
         "positive_spread": [[], []],
         "negative_spread": [[], []],
     } | more

@@ -121,7 +121,8 @@ class SpatialComponent(HingeConstants):
     Over the largest rotation about the component `driver` (rotation, share; empty and -1: none): `shift`,
     where the centre of the set lies along it (the initial capacity of the driver is then its weight in the
     measure of softening), and `worn`, what is gone of its capacity.  `positive_spread`, `negative_spread`:
-    see `Spread`.  `softens`: weight in the measure of softening, over the initial capacity.
+    see `Spread`.  `softens`: weight in the measure of softening, over the initial capacity.  `flange`:
+    distance [m] of the flange about which its fold turns; 0: tension does not hold it.
     """
 
     freedom: int
@@ -131,6 +132,7 @@ class SpatialComponent(HingeConstants):
     positive_spread: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
     negative_spread: tuple[Floats, Floats] = (np.zeros(0), np.zeros(0))
     softens: float = 1.0
+    flange: float = 0.0
 
     def component(self) -> dict[str, Any]:
         """The constants and the freedom in the form that the kernel takes."""
@@ -145,6 +147,7 @@ class SpatialComponent(HingeConstants):
             "positive_spread": [as_list(one) for one in self.positive_spread],
             "negative_spread": [as_list(one) for one in self.negative_spread],
             "softens": self.softens,
+            "flange": self.flange,
         }
 
 

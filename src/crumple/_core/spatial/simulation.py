@@ -114,6 +114,9 @@ class SpatialRecord(SpatialRows):
         between both bodies), mean of the last step, (n, joints, 6).
     obstacle_force
         Resultant of contact on every obstacle in world axes, (n, obstacles, 3).
+    axial_most
+        Largest compression and tension at every hinge [N], without vibration that is not resolved,
+        (hinges, 2).
     summary
         Of the whole run.
     ended_by
@@ -130,6 +133,7 @@ class SpatialRecord(SpatialRows):
     step: Floats
     joint_force: Floats
     obstacle_force: Floats
+    axial_most: Floats
     summary: HingeSummary
     outcome: Outcome
     reason: str

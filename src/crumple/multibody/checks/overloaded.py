@@ -26,7 +26,7 @@ from crumple.multibody.checks.names import named
 from crumple.numeric.arrays import Floats
 from crumple.numeric.rotation import turned
 from crumple.result import Caution
-from crumple.section import Axis, half_fold_length
+from crumple.section import Axis, CircularTube, half_fold_length
 from crumple.structure import Structure, placed_hinges
 from crumple.structure.hinges.asked import automatic_of
 from crumple.structure.hinges.corner_laws import corner_of
@@ -212,7 +212,8 @@ def pressed_folds(structure: Structure, solved: Solved) -> Iterator[Caution]:
     In shells a fold that has softened turns about its tension flange, so that compression N takes N b/2 of
     its moment, b the depth between the flanges; the walls of a whole section lose less, and a hinge that
     cannot shorten loses nothing.  Laws of corners know of it, and so do hinges with that coupling.  Tension
-    gives as much, up to the moment of the section that has not softened.
+    gives as much, up to the moment of the section that has not softened; hinges of elastic members know it,
+    and round tubes gain nothing in shells.
     """
     pressed: dict[str, float] = {}
     held: dict[str, float] = {}
@@ -266,6 +267,8 @@ def _axial_shares(structure: Structure, solved: Solved) -> Iterator[tuple[str, F
         largest = float(hinge.record.positive.moment.max())
         smaller = np.median([pressed[1:], pressed[:-1], np.zeros(len(pressed) - 1)], axis=0)
         lost = smaller * arm / largest
+        if hinge.flanges or isinstance(section, CircularTube):
+            lost = np.maximum(lost, 0.0)
         history = histories[hinge.name]
         capacity = history.values("capacity")
         softened = 1.0 - capacity[1:] / capacity.max()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, MutableMapping
+from collections.abc import Iterator, Mapping, MutableMapping
 from dataclasses import replace
 
 import numpy as np
@@ -117,14 +117,17 @@ def _joint(connection: Connection) -> SpatialJoint:
 
 def _hinge(joint: int, connection: Connection) -> SpatialHinge:
     assert connection.hinge is not None
-    spatial, record = connection.hinge.spatial, connection.hinge.record
+    spatial, record, flanges = connection.hinge.spatial, connection.hinge.record, connection.hinge.flanges
     form, softening = FORMS[record.form], SOFTENING[record.softening_variable]
     if spatial is None:
-        return SpatialHinge(joint, (_component(connection.free[0], record),), form=form, softening=softening)
+        plain = replace(
+            _component(connection.free[0], record), flange=flanges.get(connection.hinge.axis, 0.0)
+        )
+        return SpatialHinge(joint, (plain,), form=form, softening=softening)
     surface = spatial.surface
     return SpatialHinge(
         joint,
-        tuple(_part(spatial, part) for part in spatial.components),
+        tuple(_part(spatial, part, flanges) for part in spatial.components),
         SpatialSurface(
             COUPLINGS[surface.coupling],
             surface.rows,
@@ -153,8 +156,14 @@ def _stilled(joint: SpatialHinge) -> SpatialHinge:
     return replace(joint, components=tuple(parts))
 
 
-def _part(spatial: SpatialHingeRecord, part: HingeComponent) -> SpatialComponent:
-    plain = replace(_component(int(part.freedom), part.record), softens=part.softens)
+def _part(
+    spatial: SpatialHingeRecord, part: HingeComponent, flanges: Mapping[str, float]
+) -> SpatialComponent:
+    plain = replace(
+        _component(int(part.freedom), part.record),
+        softens=part.softens,
+        flange=flanges.get(part.freedom.label, 0.0),
+    )
     index, shift, worn = spatial.freedoms.index, part.shift, part.worn
     if shift is not None:
         plain = replace(plain, driver=index(shift.driver), shift=(shift.rotation, shift.share))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Literal
 
@@ -22,7 +22,7 @@ from crumple.hinge import (
 )
 from crumple.hinge.bending.edge_fold import BESIDE_A_CLAMP
 from crumple.hinge.record.sampling import TOO_STEEP
-from crumple.section import Axis
+from crumple.section import AXES, Axis
 from crumple.section.section import in_mm
 from crumple.structure.hinges.automatic import near_fold
 from crumple.structure.hinges.corner.press import with_corner_press
@@ -48,8 +48,9 @@ from crumple.structure.hinges.shares import (
     bar_shares,
     moment_free_ends,
 )
-from crumple.structure.hinges.spatial_hinges import spatial_hinge_record
+from crumple.structure.hinges.spatial_hinges import APART, spatial_hinge_record
 from crumple.structure.hinges.stored_loads import laws_of_loads, twist_law
+from crumple.structure.hinges.t_joints import t_joint_name, t_laws
 from crumple.structure.keys.law import LawKeys, Stops
 from crumple.structure.parts import StructureParts
 from crumple.structure.remembered import remembered
@@ -60,7 +61,8 @@ AXIS_ROW: dict[Axis, int] = {"y": 1, "z": 2}
 """Row of an axis among the axes of a hinge."""
 STIFF = 0.1
 """Length of member over the side of its section that bends as a corner that states no flexibility."""
-
+HELD = ("rectangular_tube", "closed_hat")
+"""Kinds of section whose folds tension holds, in members that bend; round tubes' folds it does not."""
 THINNEST = 1e-3
 """Wall thickness over the largest side from which the laws of all shapes have tables; some need a third."""
 OWN_HINGES = ("placed hinges", "")
@@ -260,7 +262,18 @@ def _placed(structure: StructureParts, place: HingePlace, shares: HingeShares) -
         spatial=spatial,
         axes=axes,
         laws={axis: law_of(structure, about_axis(place, axis)) for axis in about},
+        flanges=_flanges(structure, place),
     )
+
+
+def _flanges(structure: StructureParts, place: HingePlace) -> Mapping[str, float]:
+    """Flanges about which tension holds a fold; laws of corners and joints are of loads that contain it."""
+    section = structure.section_of(place.member)
+    apart = place.keys.coupling in APART or not structure.members[place.member].elastic
+    joint = corner_of(structure, place.name) or place.name in map(t_joint_name, t_laws(structure))
+    if apart or joint or section.kind not in HELD:
+        return {}
+    return {axis: (section.bending_depth(axis) - section.thickness) / 2.0 for axis in AXES}
 
 
 @remembered(MADE)

@@ -47,6 +47,9 @@ class PlacedHinge:
         Laws about its bending axes where there are several, by axis; empty: `law` alone.
     plastic
         False of an elastic joint: a point of a member that bends elastically alone.
+    flanges
+        Distances of the flanges about which it folds from the axis of the member [m], by bending axis:
+        tension there works against the fold.  Empty: it does not.
     """
 
     name: str
@@ -62,6 +65,7 @@ class PlacedHinge:
     axes: Floats | None = None
     laws: Mapping[Axis, HingeLaw] = field(default_factory=dict)
     plastic: bool = True
+    flanges: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def only_twists(self) -> bool:
