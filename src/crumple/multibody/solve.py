@@ -34,6 +34,7 @@ from crumple.multibody.checks.overlap import obstacle_overlap_warnings
 from crumple.multibody.checks.physics import physics_cautions
 from crumple.multibody.checks.struck import untouched
 from crumple.multibody.kernel_choice import why_spatial
+from crumple.multibody.lengthening import members_to_lengthen, with_lengthening_told
 from crumple.multibody.planar.solver import TreeSolver
 from crumple.multibody.run import (
     CANNOT_GO_ON,
@@ -55,10 +56,13 @@ from crumple.structure import (
     placed_hinges,
     with_elastic_members,
 )
+from crumple.structure.hinges.lengthening.found import lengthening_members, note_lengthening
 from crumple.text.names import listed
 
 FORK = 0.05
 """Difference of the rotations of two runs over the largest one that accuracy alone hardly explains."""
+MOST_LENGTHENED = 3
+"""Most runs that are repeated with members that change their length."""
 NEGLIGIBLE = 1e-9
 """Difference of the rotations of two runs [rad] that is rounding, however small the rotations are."""
 CHECKED_FROM = 0.4
@@ -112,6 +116,9 @@ def solve_multibody(
             poll = poll_of(run.duration, (0.0, 0.7 * checked), progress, cancel)
             solved = rough = solver.run(accuracy / CHECK_FACTOR, poll)
             poll = poll_of(run.duration, (0.7 * checked, 0.7 * checked), progress, cancel)
+            if solved.outcome is Outcome.COMPLETE and structure is not given:
+                structure, solver, solved = _lengthened(given, run, solver, solved, poll)
+                rough = solved
             solved, accuracy = _balanced(solver, solved, run, poll)
     except CancelledError as error:
         return _nothing_solved(run, str(error), time.perf_counter() - begin)
@@ -135,9 +142,33 @@ def solve_multibody(
         errors = stated_errors(structure, beside, solved)
     doubt = _doubt(structure, run, solver, rough, (progress, cancel)) if run.checks else None
     seconds = time.perf_counter() - begin
-    return _result(
+    result = _result(
         structure, run, solver, solved, errors=errors, doubt=doubt, seconds=seconds, accuracy=accuracy
     )
+    return result if structure is given else with_lengthening_told(result, given, structure)
+
+
+def _lengthened(
+    given: Structure, run: Run, solver: Solver, solved: Solved, poll: Poll
+) -> tuple[Structure, Solver, Solved]:
+    """The run again with members that its forces show to change their length, until they show no more.
+
+    The structure as solved, its solver and run. If none of these runs completes, the first one is the answer.
+    """
+    first = bent = with_elastic_members(given, run.settings, run.time_in_motion)
+    known, found = lengthening_members(given), (solver, solved)
+    for _ in range(MOST_LENGTHENED):
+        further = members_to_lengthen(bent, found[1])
+        if not further:
+            break
+        note_lengthening(given, lengthening_members(given) | further)
+        bent = with_elastic_members(given, run.settings, run.time_in_motion)
+        again = solver_of(bent, run)
+        found = again, again.run(run.settings.accuracy / CHECK_FACTOR, poll)
+        if found[1].outcome is not Outcome.COMPLETE:
+            note_lengthening(given, known)
+            return first, solver, solved
+    return bent, *found
 
 
 def _with_rigid_bars(

@@ -25,6 +25,10 @@ def remembered(size: int) -> Callable[[Callable[P, T]], Callable[P, T]]:
     return keep
 
 
+FOUND = frozenset({"lengthening members"})
+"""Kinds of data that a solution has shown."""
+
+
 class Kept(dict[tuple[str, Hashable], Any]):
     """Data derived from a structure, by kind and name, until `forget`; not part of its description."""
 
@@ -39,8 +43,9 @@ class Kept(dict[tuple[str, Hashable], Any]):
 
     __hash__ = None
 
-    def __reduce__(self) -> tuple[type[Kept], tuple[()]]:
-        return (Kept, ())
+    def __reduce__(self) -> tuple[Any, ...]:
+        # another process works all out again, but for what only a solution shows
+        return (Kept, (), None, None, iter([item for item in self.items() if item[0][0] in FOUND]))
 
     def clear(self) -> None:
         """Forget all."""

@@ -76,7 +76,7 @@ def crushing_cautions(structure: Structure, solved: Solved, *, struck: bool) -> 
         spec = structure.members[member]
         alike.setdefault((spec.section, spec.material, member in hinged), {})[member] = force
     for (_, _, has_hinges), members in alike.items():
-        law, peak = _folding(structure, next(iter(members)))
+        law, peak = folding(structure, next(iter(members)))
         beyond = {member: force for member, force in members.items() if force > peak}
         if not beyond:
             continue
@@ -336,7 +336,7 @@ def _strongest(time: Floats, force: Floats, lasting: float) -> Floats:
     return np.asarray(blows[int(np.argmax(np.linalg.norm(blows, axis=1)))])
 
 
-def _folding(structure: Structure, member: str) -> tuple[str, float]:
+def folding(structure: Structure, member: str) -> tuple[str, float]:
     """The axial law that applies to a member's section, and its peak [N]; without a name: the squash load."""
     name, law = _axial_law(structure, member)
     if law is not None:

@@ -26,10 +26,11 @@ from crumple.material import Material
 from crumple.numeric.arrays import Floats
 from crumple.section import Axis, Section
 from crumple.structure.bending import bending_axis, planar
-from crumple.structure.hinges.asked import any_automatic
-from crumple.structure.hinges.law_choice import formula
+from crumple.structure.hinges.asked import any_automatic, automatic_of
+from crumple.structure.hinges.law_choice import folding_slip, formula
+from crumple.structure.hinges.lengthening.found import lengthening_members
 from crumple.structure.hinges.runs.bars import rigid_along
-from crumple.structure.hinges.runs.straight_runs import StraightRun
+from crumple.structure.hinges.runs.straight_runs import StraightRun, straight_run
 from crumple.structure.keys.member import Member
 from crumple.structure.parts import StructureParts
 from crumple.structure.remembered import remembered
@@ -64,7 +65,8 @@ def with_elastic_members(structure: Parts, settings: MultibodySettings, moving: 
     """The structure with the members elastic that do not say otherwise, if the settings say so.
 
     `auto` says so where automatic hinges are asked for, in motions of up to `IMPACT`: in longer ones
-    vibration takes most of the steps, and decays without effect.
+    vibration takes most of the steps, and decays without effect.  Members that a run has shown to change
+    their length do so from then on.
 
     Parameters
     ----------
@@ -76,20 +78,22 @@ def with_elastic_members(structure: Parts, settings: MultibodySettings, moving: 
     automatic = moving <= IMPACT and any_automatic(structure)
     if settings.members == "rigid" or (settings.members == "auto" and not automatic):
         return structure
-    unsaid = _unsaid(structure)
-    if not unsaid:
+    unsaid, longer = _unsaid(structure), lengthening_members(structure)
+    if not (unsaid or longer):
         return structure
 
     def bent() -> Parts:
-        return structure.with_elastic(
+        elastic = structure.with_elastic(
             {
                 name: _elastic(spec, settings.segments) if name in unsaid else spec
                 for name, spec in structure.members.items()
             }
         )
+        own = {name: _lengthened(elastic, name) for name in longer}
+        return elastic.model_copy(update={"members": {**elastic.members, **own}}) if longer else elastic
 
     # the solver, its checks, the range from the laws and the modes ask in turn: one copy, placed once
-    return structure.kept.once("elastic members", (type(structure), settings.segments), bent)
+    return structure.kept.once("elastic members", (type(structure), settings.segments, longer), bent)
 
 
 def rigid_for_long(structure: StructureParts, settings: MultibodySettings, moving: float) -> str:
@@ -116,6 +120,20 @@ def _unsaid(structure: StructureParts) -> list[str]:
     return [
         name for name, spec in structure.members.items() if spec.elastic is None and spec.rigid is not True
     ]
+
+
+def _lengthened(structure: StructureParts, name: str) -> Member:
+    """A member as if the input gave it ``hinges: {axial: ..., spacing: ...}``.
+
+    It shortens as a folding column, or yields, with a candidate in the middle of its straight run, where
+    struts kink.
+    """
+    spec, asked = structure.members[name], automatic_of(structure, name)
+    if asked is None:
+        return spec
+    half = straight_run(structure, name).length / 2.0
+    update = {"axial": folding_slip(structure, name), "spacing": min(asked.spacing or half, half)}
+    return spec.model_copy(update={"hinges": asked.model_copy(update=update)})
 
 
 def _elastic(spec: Member, segments: int) -> Member:

@@ -137,8 +137,9 @@ class HingeAxes(Spec):
     """Whether it also yields or folds along the member; `true`: folds by a stored law, else yields. Automatic
     hinges of a straight run between supports and of braced members do so unless this is `false`; those of
     structures that an impact at the start would stop if lengths stayed also do; those of elastic members also
-    where an obstacle strikes a rigid joint, and at mitred corners that obstacles may press. Braced tubes, and
-    those of such structures, fold by the law of their section."""
+    where an obstacle strikes a rigid joint, at mitred corners that obstacles may press, and where a run shows
+    forces beyond what folds or yields the walls. Braced tubes, and those of such structures, fold by the law
+    of their section."""
     coupling: CouplingName | None = None
     """How its axes share the capacity: the interaction of the section's walls (default), an ellipsoid, none,
     a ball (one curve over the angle of rotation), or a fold about its tension flange."""

@@ -1,0 +1,69 @@
+"""Members whose length must change, found by the forces of a run.
+
+A hinge that only turns carries any force along its member.  Where the largest compression in a run exceeds
+what folds the walls, or the largest tension the squash force, the member would fold, kink as a strut, or
+yield; the forces are those that the kernel follows without vibration that it does not resolve.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from crumple.hinge import Freedom
+from crumple.multibody.answer.poses import SpatialPoses
+from crumple.multibody.answer.solved import Solved
+from crumple.multibody.checks.crushing import folding
+from crumple.multibody.checks.names import named
+from crumple.result import Result
+from crumple.structure import Structure
+from crumple.structure.checks.doubtful import double_members
+from crumple.structure.hinges.asked import automatic_of
+from crumple.structure.hinges.lengthening.found import lengthening_members
+from crumple.structure.hinges.runs.straight_runs import straight_run
+from crumple.structure.hinges.spatial_hinges import interaction_of
+from crumple.structure.keys.member import AutomaticHinges
+from crumple.units import format_quantity
+
+
+def members_to_lengthen(structure: Structure, solved: Solved) -> frozenset[str]:
+    """Elastic members with candidates of fixed length, and forces along them beyond what their walls carry.
+
+    Members in line that are one tube are found together.  Those of which the input says how their hinges
+    change their length are left as they are, and so are two in one place, whose forces are not unique.
+    """
+    poses = solved.poses
+    if not isinstance(poses, SpatialPoses):
+        return frozenset()
+    double, found = double_members(structure), set[str]()
+    # behind them are the hinges of crushed walls
+    forces = poses.record.axial_most[: len(poses.linkage.hinges)].tolist()
+    for hinge, (pressed, pulled) in zip(poses.linkage.hinges, forces, strict=True):
+        member, asked = hinge.member, automatic_of(structure, hinge.member)
+        slips = hinge.spatial is not None and Freedom.AXIAL in hinge.spatial.freedoms
+        given = asked is None or asked.axial is not None or "axial" in asked.model_fields_set
+        if slips or given or member in double or member in found or not structure.members[member].elastic:
+            continue
+        squash = interaction_of(structure.section_of(member), structure.material_of(member)).squash_force
+        if pressed > folding(structure, member)[1] or pulled > squash:
+            found |= set(straight_run(structure, member).stretches)
+    return frozenset(found)
+
+
+def with_lengthening_told(result: Result, given: Structure, solved: Structure) -> Result:
+    """A result that names the members of the input whose length the run has shown to change.
+
+    `solved`: the structure with these members as they are solved.
+    """
+    members = [name for name in given.members if name in lengthening_members(given)]
+    if not members:
+        return result
+    one, keys = len(members) == 1, automatic_of(solved, members[0]) or AutomaticHinges()
+    law = f"{{law: {keys.axial.law}}}" if keys.axial is not None and keys.axial.law else "true"
+    text = (
+        f"{named('Member', members)} {'carries' if one else 'carry'} more along "
+        f"{'its axis' if one else 'their axes'} than folds or yields the walls if "
+        f"{'its length stays' if one else 'their lengths stay'}: solved again with hinges there that change "
+        f"{'it' if one else 'them'}, and a candidate between the ends, as with members.{members[0]}.hinges: "
+        f"{{axial: {law}, spacing: {format_quantity(keys.spacing or 0.0, 'm', 3)}}}."
+    )
+    return replace(result, warnings=(*result.warnings, text))

@@ -1,0 +1,25 @@
+"""Members that a run shows to change their length: forces along them that fold or yield their walls.
+
+Which members a structure presses or pulls so far is a matter of where it folds, and known when it has been
+solved (crumple.multibody.lengthening).  What this makes of their candidates: `with_elastic_members`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from crumple.structure.parts import StructureParts
+
+FOUND = ("lengthening members", "")
+"""Where a structure keeps what its first run showed."""
+
+
+def lengthening_members(structure: StructureParts) -> frozenset[str]:
+    """Members of an input that a run has shown to change their length; none before it is solved."""
+    found: frozenset[str] = structure.kept.get(FOUND, frozenset())
+    return found
+
+
+def note_lengthening(structure: StructureParts, members: Collection[str]) -> None:
+    """Keep which members of an input change their length, for all that asks for it from now on."""
+    structure.kept[FOUND] = frozenset(members)

@@ -1,0 +1,130 @@
+"""Members whose forces fold or yield their walls are solved again with hinges that change their length."""
+
+import pickle
+from dataclasses import replace
+
+import pytest
+
+from crumple._core.outcome import Outcome
+from crumple.analysis import loads, solve
+from crumple.multibody.solve import solver_of
+from crumple.structure import placed_hinges, with_elastic_members
+from crumple.structure.hinges.lengthening.found import lengthening_members
+
+BRACKET = """crumple: 1
+materials:
+  steel: {{youngs_modulus: 210 GPa, poissons_ratio: 0.3, density: 7850 kg/m^3, yield_stress: 355 MPa}}
+sections:
+  arm: {{type: rectangular_tube, width: 50 mm, depth: 60 mm, thickness: 5 mm}}
+  strut: {{type: circular_tube, diameter: {diameter} mm, thickness: 1.2 mm}}
+nodes:
+  high: [0 m, 0 m, 0 m]
+  joint: [0.3 m, 0 m, 0 m]
+  tip: [0.5 m, 0 m, 0 m]
+  low: [0 m, 0 m, -0.3 m]
+members:
+  inner: {{nodes: [high, joint], section: arm, material: steel, up: [0, 0, 1]}}
+  outer: {{nodes: [joint, tip], section: arm, material: steel, up: [0, 0, 1]}}
+  strut: {{nodes: [low, joint], section: strut, material: steel{hinges}}}
+hinges: auto
+supports: {{a: {{node: high, fix: all}}, b: {{node: low, fix: all}}}}
+masses: {{load: {{node: tip, mass: 50 kg}}}}
+initial_velocity:
+  - {{nodes: [tip], translation: [0 m/s, 0.2 m/s, {speed} m/s]}}
+analysis: {{duration: {time} ms, multibody: {{members: {members}}}}}
+outputs: {{every: 0.2 ms, nodes: [tip]}}
+"""
+
+
+def bracket(speed=-6.0, members="elastic", hinges="", diameter=25, time=12):
+    """A stiff arm on a thin strut, its tip thrown down: the strut is pressed; or thrown up: it is pulled."""
+    given = {"speed": speed, "members": members, "diameter": diameter, "time": time}
+    return loads(BRACKET.format(hinges=f", hinges: {hinges}" if hinges else "", **given))
+
+
+def of_strut(result):
+    return {name for name in result.hinges if name.startswith("strut")}
+
+
+@pytest.fixture(scope="module")
+def pressed():
+    analysis = bracket()
+    return analysis, solve(analysis)
+
+
+def test_a_strut_that_would_carry_more_than_its_walls_is_solved_again_and_named(pressed):
+    analysis, result = pressed
+    assert result.status.ok
+    assert lengthening_members(analysis.structure) == {"strut"}
+    assert of_strut(result) == {"strut-low", "strut-1", "strut-joint"}
+    (told,) = (text for text in result.warnings if "solved again" in text)
+    assert told.startswith("Member strut carries more along its axis than folds or yields the walls")
+    assert "members.strut.hinges: {axial: {law: circular}, spacing: 212 mm}" in told
+    assert "axial_compression" not in {caution.code for caution in result.cautions}
+    moved = solve(bracket(hinges="{axial: {law: circular}, spacing: 212.1 mm}"))
+    for name, hinge in result.hinges.items():
+        assert hinge.rotation_max == pytest.approx(moved.hinges[name].rotation_max, rel=1e-3, abs=1e-4)
+
+
+def test_the_strut_gives_way(pressed):
+    stiff = solve(bracket(hinges="{axes: [y, z, x], axial: false}"), checks=False)
+    assert "axial_compression" in {caution.code for caution in stiff.cautions}
+    tip = "node.tip.displacement.z"
+    assert pressed[1][tip].min() < 1.5 * stiff[tip].min() < 0.0
+
+
+def test_a_second_solution_is_the_same_and_so_is_that_of_another_process(pressed):
+    analysis, first = pressed
+    copy = pickle.loads(pickle.dumps(analysis))
+    assert lengthening_members(copy.structure) == {"strut"}
+    for again in (solve(analysis), solve(copy)):
+        assert again.hinges.keys() == first.hinges.keys()
+        assert all((again[name] == first[name]).all() for name in first.channels)
+        assert any("solved again" in text for text in again.warnings)
+
+
+def test_others_see_the_candidates_that_a_solution_has_shown():
+    analysis = bracket(time=6)
+
+    def candidates():
+        bent = with_elastic_members(analysis.structure, analysis.multibody, analysis.time_in_motion)
+        return {hinge.name for hinge in placed_hinges(bent) if hinge.plastic and hinge.member == "strut"}
+
+    assert candidates() == {"strut-low", "strut-joint"}
+    solve(analysis, checks=False)
+    assert candidates() == {"strut-low", "strut-1", "strut-joint"}
+
+
+def test_a_strut_that_is_pulled_yields():
+    analysis = bracket(speed=9.0)
+    result = solve(analysis, checks=False)
+    assert lengthening_members(analysis.structure) == {"strut"}
+    assert "axial_tension" not in {caution.code for caution in result.cautions}
+    assert max(result[f"hinge.{name}.slip.x.travel"].max() for name in of_strut(result)) > 1e-3
+
+
+@pytest.mark.parametrize("keys", [{"speed": -0.5}, {"members": "rigid"}, {"hinges": "{axial: false}"}])
+def test_strong_struts_rigid_ones_and_those_that_are_to_keep_their_length_do(keys):
+    analysis = bracket(**keys)
+    result = solve(analysis, checks=False)
+    assert not lengthening_members(analysis.structure)
+    assert not any("solved again" in text for text in result.warnings)
+
+
+def test_if_the_further_run_does_not_complete_the_first_one_is_the_answer(monkeypatch):
+    made = []
+
+    def solver(structure, run):
+        made.append(solver_of(structure, run))
+        if len(made) == 2:
+            whole = made[1].run
+            made[1].run = lambda *args, **keys: replace(whole(*args, **keys), outcome=Outcome.STALLED)
+        return made[-1]
+
+    monkeypatch.setattr("crumple.multibody.solve.solver_of", solver)
+    analysis = bracket(time=6)
+    result = solve(analysis, checks=False)
+    assert len(made) == 2
+    assert result.status.ok
+    assert of_strut(result) == {"strut-low", "strut-joint"}
+    assert not lengthening_members(analysis.structure)
