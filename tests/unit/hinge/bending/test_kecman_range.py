@@ -50,3 +50,8 @@ def test_range_ends_at_jamming_where_that_comes_first():
 )
 def test_each_condition_warns_by_itself(dimensions, message):
     assert any(message in warning for warning in validity(*dimensions).warnings)
+
+
+def test_a_flange_at_the_limit_is_not_thick():
+    assert 0.036 / 0.003 < 12.0
+    assert not any("thick flange" in warning for warning in validity(0.036, 0.036, 0.003).warnings)
