@@ -14,6 +14,7 @@ from crumple.multibody.answer.poses import SpatialPoses
 from crumple.multibody.answer.solved import Solved
 from crumple.multibody.checks.crushing import folding
 from crumple.multibody.checks.names import named
+from crumple.multibody.run import Run
 from crumple.result import Result
 from crumple.structure import Structure
 from crumple.structure.checks.doubtful import double_members
@@ -49,12 +50,13 @@ def members_to_lengthen(structure: Structure, solved: Solved) -> frozenset[str]:
     return frozenset(found)
 
 
-def with_lengthening_told(result: Result, given: Structure, solved: Structure) -> Result:
+def with_lengthening_told(result: Result, run: Run, given: Structure, solved: Structure) -> Result:
     """A result that names the members of the input whose length the run has shown to change.
 
     `solved`: the structure with these members as they are solved.
     """
-    members = [name for name in given.members if name in lengthening_members(given)]
+    noted = lengthening_members(given, run.settings, run.time_in_motion)
+    members = [name for name, spec in solved.members.items() if name in noted and spec.elastic]
     if not members:
         return result
     one, keys = len(members) == 1, automatic_of(solved, members[0]) or AutomaticHinges()

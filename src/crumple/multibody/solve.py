@@ -116,7 +116,7 @@ def solve_multibody(
             poll = poll_of(run.duration, (0.0, 0.7 * checked), progress, cancel)
             solved = rough = solver.run(accuracy / CHECK_FACTOR, poll)
             poll = poll_of(run.duration, (0.7 * checked, 0.7 * checked), progress, cancel)
-            if solved.outcome is Outcome.COMPLETE and structure is not given:
+            if solved.outcome is Outcome.COMPLETE and not run.capacities:
                 structure, solver, solved = _lengthened(given, run, solver, solved, poll)
                 rough = solved
             solved, accuracy = _balanced(solver, solved, run, poll)
@@ -145,7 +145,7 @@ def solve_multibody(
     result = _result(
         structure, run, solver, solved, errors=errors, doubt=doubt, seconds=seconds, accuracy=accuracy
     )
-    return result if structure is given else with_lengthening_told(result, given, structure)
+    return with_lengthening_told(result, run, given, structure)
 
 
 def _lengthened(
@@ -155,18 +155,19 @@ def _lengthened(
 
     The structure as solved, its solver and run. If none of these runs completes, the first one is the answer.
     """
-    first = bent = with_elastic_members(given, run.settings, run.time_in_motion)
-    known, found = lengthening_members(given), (solver, solved)
+    told = run.settings, run.time_in_motion
+    first = bent = with_elastic_members(given, *told)
+    known, found = lengthening_members(given, *told), (solver, solved)
     for _ in range(MOST_LENGTHENED):
         further = members_to_lengthen(bent, found[1])
         if not further:
             break
-        note_lengthening(given, lengthening_members(given) | further)
-        bent = with_elastic_members(given, run.settings, run.time_in_motion)
+        note_lengthening(given, *told, lengthening_members(given, *told) | further)
+        bent = with_elastic_members(given, *told)
         again = solver_of(bent, run)
         found = again, again.run(run.settings.accuracy / CHECK_FACTOR, poll)
         if found[1].outcome is not Outcome.COMPLETE:
-            note_lengthening(given, known)
+            note_lengthening(given, *told, known)
             return first, solver, solved
     return bent, *found
 

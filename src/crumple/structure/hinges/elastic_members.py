@@ -76,9 +76,13 @@ def with_elastic_members(structure: Parts, settings: MultibodySettings, moving: 
         Time in motion, without quasi-static stages [s].
     """
     automatic = moving <= IMPACT and any_automatic(structure)
-    if settings.members == "rigid" or (settings.members == "auto" and not automatic):
-        return structure
-    unsaid, longer = _unsaid(structure), lengthening_members(structure)
+    rigid = settings.members == "rigid" or (settings.members == "auto" and not automatic)
+    unsaid = [] if rigid else _unsaid(structure)
+    longer = frozenset(
+        name
+        for name in lengthening_members(structure, settings, moving)
+        if name in unsaid or structure.members[name].elastic
+    )
     if not (unsaid or longer):
         return structure
 
@@ -93,7 +97,7 @@ def with_elastic_members(structure: Parts, settings: MultibodySettings, moving: 
         return elastic.model_copy(update={"members": {**elastic.members, **own}}) if longer else elastic
 
     # the solver, its checks, the range from the laws and the modes ask in turn: one copy, placed once
-    return structure.kept.once("elastic members", (type(structure), settings.segments, longer), bent)
+    return structure.kept.once("elastic members", (type(structure), settings.segments, rigid, longer), bent)
 
 
 def rigid_for_long(structure: StructureParts, settings: MultibodySettings, moving: float) -> str:
