@@ -56,7 +56,7 @@ def with_lengthening_told(result: Result, run: Run, given: Structure, solved: St
     `solved`: the structure with these members as they are solved.
     """
     noted = lengthening_members(given, run.settings, run.time_in_motion)
-    members = [name for name, spec in solved.members.items() if name in noted and spec.elastic]
+    members = [name for name in given.members if name in noted]
     if not members:
         return result
     one, keys = len(members) == 1, automatic_of(solved, members[0]) or AutomaticHinges()

@@ -7,6 +7,8 @@ import pytest
 
 from crumple._core.outcome import Outcome
 from crumple.analysis import loads, solve
+from crumple.analysis.solve import run_of
+from crumple.multibody import solve_multibody
 from crumple.multibody.solve import solver_of
 from crumple.structure import placed_hinges, with_elastic_members
 from crumple.structure.hinges.lengthening.found import lengthening_members
@@ -153,3 +155,42 @@ def test_members_that_are_elastic_by_themselves_lengthen_too():
     result = solve(analysis, checks=False)
     assert of_strut(result) == {"strut-low", "strut-1", "strut-joint"}
     assert any("solved again" in text for text in result.warnings)
+
+
+def test_two_members_in_one_place_keep_their_lengths():
+    twice = BRACKET.replace(
+        "hinges: auto\n", "  twin: {{nodes: [low, joint], section: strut, material: steel}}\nhinges: auto\n"
+    )
+    given = {"speed": -6.0, "members": "elastic", "diameter": 18, "time": 3, "hinges": ""}
+    analysis = loads(twice.format(**given))
+    solve(analysis, checks=False)
+    assert not noted(analysis)
+
+
+def test_members_in_line_lengthen_together_and_kink_in_the_middle_of_all():
+    parts = "[low, third], section: strut, material: steel{hinges}}}\n"
+    for name, nodes in {"next": "[third, other]", "last": "[other, joint]"}.items():
+        parts += f"  {name}: {{{{nodes: {nodes}, section: strut, material: steel{{hinges}}}}}}\n"
+    text = BRACKET.replace("[low, joint], section: strut, material: steel{hinges}}}\n", parts)
+    text = text.replace(
+        "members:\n", "  third: [0.12 m, 0 m, -0.18 m]\n  other: [0.18 m, 0 m, -0.12 m]\nmembers:\n", 1
+    )
+    given = {"speed": -6.0, "members": "elastic", "diameter": 25, "time": 6, "hinges": ""}
+    analysis = loads(text.format(**given))
+    result = solve(analysis, checks=False)
+    assert noted(analysis) == {"strut", "next", "last"}
+    assert {name for name in result.hinges if name.split("-")[0] in noted(analysis)} == {
+        *("strut-low", "next-1", "last-joint"),
+    }
+
+
+def test_candidates_that_are_asked_for_at_smaller_distances_stay():
+    result = solve(bracket(hinges="{spacing: 130 mm}", time=6), checks=False)
+    assert {"strut-1", "strut-2"} < of_strut(result)
+
+
+def test_a_run_with_changed_capacities_looks_for_nothing():
+    analysis = bracket(time=6)
+    run = replace(run_of(analysis), capacities={"strut-low": 0.9}, checks=False)
+    assert of_strut(solve_multibody(analysis.structure, run)) == {"strut-low", "strut-joint"}
+    assert not noted(analysis)

@@ -78,11 +78,7 @@ def with_elastic_members(structure: Parts, settings: MultibodySettings, moving: 
     automatic = moving <= IMPACT and any_automatic(structure)
     rigid = settings.members == "rigid" or (settings.members == "auto" and not automatic)
     unsaid = [] if rigid else _unsaid(structure)
-    longer = frozenset(
-        name
-        for name in lengthening_members(structure, settings, moving)
-        if name in unsaid or structure.members[name].elastic
-    )
+    longer = lengthening_members(structure, settings, moving)
     if not (unsaid or longer):
         return structure
 
@@ -133,8 +129,7 @@ def _lengthened(structure: StructureParts, name: str) -> Member:
     struts kink.
     """
     spec, asked = structure.members[name], automatic_of(structure, name)
-    if asked is None:
-        return spec
+    assert asked is not None  # of all members of a straight run
     half = straight_run(structure, name).length / 2.0
     update = {"axial": folding_slip(structure, name), "spacing": min(asked.spacing or half, half)}
     return spec.model_copy(update={"hinges": asked.model_copy(update=update)})

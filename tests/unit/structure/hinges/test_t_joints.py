@@ -10,7 +10,7 @@ from crumple.characterisation.needed import left_out, needed
 from crumple.cli.main import app
 from crumple.material import Material
 from crumple.section import RectangularTube
-from crumple.structure import Structure, law_uses, placed_hinges
+from crumple.structure import MultibodySettings, Structure, law_uses, placed_hinges, with_elastic_members
 from crumple.structure.hinges.t_joints import t_places
 
 METAL = Material("any name", 210e9, 0.3, 7850.0, 488e6)
@@ -87,6 +87,15 @@ def test_in_space_each_axis_has_the_law_of_its_plane(tmp_path):
     moments = {c.freedom.name: float(c.record.positive.moment[0]) for c in joint.spatial.components}
     # the branch's width lies along the chord: it turns about z in the plane
     assert (moments["Z"], moments["Y"]) == (MOMENTS["in"], MOMENTS["across"])
+
+
+def test_tension_does_not_hold_the_fold_of_a_joint_whose_law_is_stored(tmp_path):
+    whole = frame(across=True, laws=stored(tmp_path, "in", "across"))
+    bent = with_elastic_members(whole, MultibodySettings(members="elastic"), 0.1)
+    flanges = {hinge.name: hinge.flanges for hinge in placed_hinges(bent) if hinge.plastic}
+    assert not flanges.pop("t-joint-m")
+    assert flanges
+    assert all(flanges.values())
 
 
 def test_a_plane_without_a_stored_law_has_that_of_the_member(tmp_path):
