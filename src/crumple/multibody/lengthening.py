@@ -7,6 +7,7 @@ yield; the forces are those that the kernel follows without vibration that it do
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 from crumple.hinge import Freedom
@@ -16,7 +17,7 @@ from crumple.multibody.checks.crushing import folding
 from crumple.multibody.checks.names import named
 from crumple.multibody.run import Run
 from crumple.result import Result
-from crumple.structure import Structure
+from crumple.structure import PlacedHinge, Structure
 from crumple.structure.checks.doubtful import double_members
 from crumple.structure.hinges.asked import automatic_of
 from crumple.structure.hinges.lengthening.found import lengthening_members
@@ -35,19 +36,28 @@ def members_to_lengthen(structure: Structure, solved: Solved) -> frozenset[str]:
     poses = solved.poses
     if not isinstance(poses, SpatialPoses):
         return frozenset()
-    double, found = double_members(structure), set[str]()
+    hinges, found = poses.linkage.hinges, set[str]()
+    kept = double_members(structure) | _changing(structure, hinges)
     # behind them are the hinges of crushed walls
-    forces = poses.record.axial_most[: len(poses.linkage.hinges)].tolist()
-    for hinge, (pressed, pulled) in zip(poses.linkage.hinges, forces, strict=True):
+    for hinge, (pressed, pulled) in zip(hinges, poses.record.axial_most[: len(hinges)].tolist(), strict=True):
         member, asked = hinge.member, automatic_of(structure, hinge.member)
-        slips = hinge.spatial is not None and Freedom.AXIAL in hinge.spatial.freedoms
         given = asked is None or asked.axial is not None or "axial" in asked.model_fields_set
-        if slips or given or member in double or member in found or not structure.members[member].elastic:
+        if given or member in kept or member in found or not structure.members[member].elastic:
             continue
         squash = interaction_of(structure.section_of(member), structure.material_of(member)).squash_force
         if pressed > folding(structure, member)[1] or pulled > squash:
             found |= set(straight_run(structure, member).stretches)
     return frozenset(found)
+
+
+def _changing(structure: Structure, hinges: Iterable[PlacedHinge]) -> set[str]:
+    """Members that change their length, at a hinge of any member in line with them."""
+    slipping = {
+        hinge.member
+        for hinge in hinges
+        if hinge.spatial is not None and Freedom.AXIAL in hinge.spatial.freedoms
+    }
+    return {name for member in slipping for name in straight_run(structure, member).stretches}
 
 
 def with_lengthening_told(result: Result, run: Run, given: Structure, solved: Structure) -> Result:
