@@ -268,10 +268,11 @@ def _placed(structure: StructureParts, place: HingePlace, shares: HingeShares) -
 
 def _flanges(structure: StructureParts, place: HingePlace) -> Mapping[str, float]:
     """Flanges about which tension holds a fold; laws of corners and joints are of loads that contain it."""
+    if not structure.members[place.member].elastic or place.keys.coupling in APART:
+        return {}
     section = structure.section_of(place.member)
-    apart = place.keys.coupling in APART or not structure.members[place.member].elastic
     joint = corner_of(structure, place.name) or place.name in map(t_joint_name, t_laws(structure))
-    if apart or joint or section.kind not in HELD:
+    if joint or section.kind not in HELD:
         return {}
     return {axis: (section.bending_depth(axis) - section.thickness) / 2.0 for axis in AXES}
 
