@@ -3,7 +3,7 @@
 Elements of 3.3 or more along half a fold, most with 4 or more, solved once by this program: largest
 displacement of the mass, and rotation at its node. No constant was fitted to them; that tension holds no
 folds of round tubes was decided by the two that are here. Without tension the displacements of the tubes of
-flat walls err by +16, -3, +14, +2, +2 and +6 %.
+flat walls err by +16, -3, +14, +2, +6 and +2 %.
 
 Kind: independent calculation.  Source: run here.
 """
