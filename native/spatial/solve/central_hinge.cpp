@@ -38,14 +38,6 @@ double weight(const Part& p, const FrozenSpatialHinge& f, int k, double share) {
     return p.reference > 0 ? capacity(f, k, share) / p.reference : 1;
 }
 
-// The linearised part: A (x_next - x) = y - pull, A = m + s H + 2 s/d q q^T, pull = m x + (mu - s r)/d q, r = 1 - d - g^2, H the
-// curvature of g^2/2.
-struct Linear {
-    double inverse[most * most];
-    double q[most], pull[most];
-    double short_of;  // r
-};
-
 void invert(int n, double a[most][most], double* out) {
     // Cholesky
     for (int j = 0; j < n; j++) {
@@ -74,9 +66,10 @@ void invert(int n, double a[most][most], double* out) {
     }
 }
 
-Linear linearised(const Part& p, const CentralPoint& at, int i, double mu) {
+// A = m + s H + 2 s/d q q^T, pull = m x + (mu - s r)/d q, r = 1 - d - g^2, H the curvature of g^2/2.
+PathTangent::Surface linearised(const Part& p, const CentralPoint& at, int i, double mu) {
     const double *x = at.x + p.first, s = at.slide[i], d = at.room[i];
-    Linear out;
+    PathTangent::Surface out;
     double a[most][most] = {};
     const double g2 = half_square(*p.surface, p.n, x, out.q, &a[0][0], most);
     out.short_of = 1 - d - g2;
@@ -128,13 +121,14 @@ CentralPoint near_path(const SpatialHinge& hinge, const FrozenSpatialHinge& f, c
     return out;
 }
 
-void path_tangent(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const CentralPoint& at, double mu, double* offset, double* tangent) {
+PathTangent path_tangent(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const CentralPoint& at, double mu, double* offset, double* tangent) {
+    PathTangent out;
     Part parts[most];
     const int n = size(hinge), number = parts_of(hinge, f, parts);
     std::fill(tangent, tangent + n * n, 0.0);
     for (int i = 0; i < number; i++) {
         const Part& p = parts[i];
-        const Linear l = linearised(p, at, i, mu);
+        const PathTangent::Surface& l = out.surface[i] = linearised(p, at, i, mu);
         for (int j = 0; j < p.n; j++) {
             const int row = p.first + j;
             const double scale = f.h * capacity(f, row, at.x[row]);
@@ -147,15 +141,16 @@ void path_tangent(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const 
             }
         }
     }
+    return out;
 }
 
-CentralPoint path_step(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const CentralPoint& at, double mu, const double* w) {
+CentralPoint path_step(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const CentralPoint& at, const PathTangent& t, double mu, const double* w) {
     CentralPoint next;
     Part parts[most];
     const int number = parts_of(hinge, f, parts);
     for (int i = 0; i < number; i++) {
         const Part& p = parts[i];
-        const Linear l = linearised(p, at, i, mu);
+        const PathTangent::Surface& l = t.surface[i];
         double along = 0;
         for (int j = 0; j < p.n; j++) {
             double step = 0;

@@ -15,6 +15,15 @@ struct CentralPoint {
     double x[most_components] = {}, slide[most_components] = {}, room[most_components] = {};
 };
 
+// Linearisation of each surface at a point: A (x_next - x) = y - pull, see `linearised`.
+struct PathTangent {
+    struct Surface {
+        double inverse[most_components * most_components];  // of A
+        double q[most_components], pull[most_components];
+        double short_of;  // 1 - d - g^2, with d the variable for 1 - g^2
+    } surface[most_components];
+};
+
 // whether the hinge has a central path: set-valued, not fractured, with a smooth surface and positive capacities in every sense
 bool has_path(const SpatialHinge& hinge, const FrozenSpatialHinge& f);
 // number of its surfaces: one, or one for each component
@@ -22,9 +31,9 @@ inline int surfaces(const SpatialHinge& hinge) { return coupled(hinge) ? 1 : siz
 // start point near the path for estimated impulses and rates; x is drawn inside if the impulses are too large
 CentralPoint near_path(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const double* impulse, const double* w, double mu);
 // linearisation at a point: impulse = offset + tangent w, tangent (n x n) symmetric and positive definite; without dampers and stops
-void path_tangent(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const CentralPoint& at, double mu, double* offset, double* tangent);
-// the next point from the linearisation at rates w
-CentralPoint path_step(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const CentralPoint& at, double mu, const double* w);
+PathTangent path_tangent(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const CentralPoint& at, double mu, double* offset, double* tangent);
+// the next point from that linearisation at rates w
+CentralPoint path_step(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const CentralPoint& at, const PathTangent& t, double mu, const double* w);
 // share of the step to `next`, at most 1, that keeps s and 1 - g^2 positive
 double path_share(const SpatialHinge& hinge, const CentralPoint& at, const CentralPoint& next);
 CentralPoint along_path(const SpatialHinge& hinge, const FrozenSpatialHinge& f, const CentralPoint& at, const CentralPoint& next, double share);

@@ -16,7 +16,7 @@ namespace crumple::spatial {
 namespace {
 
 // mu at the start of a path, at the point kept for the following passes, and at the end, relative to the largest rate.
-constexpr double path_begin = 1e-1, path_kept = 1e-4, path_end = 1e-11;
+constexpr double path_begin = 1e-1, path_kept = 1e-6, path_end = 1e-11;
 // At the end the mean s (1 - g^2) is within this factor of the final mu, and all points took at least this share of their last step.
 constexpr double close_to_end = 2, nearly_whole = 0.7;
 // Reduction of mu if all points took half of their step: independently (`fast`), by the same share (`fast_together`); and if they took
@@ -41,22 +41,24 @@ CentralPath::CentralPath(Problem& problem) : p_(problem) {
     for (const SpatialHinge& hinge : hinges) exists_ = exists_ && !(rigid(hinge) && folds(hinge));
 }
 
-void CentralPath::linearise(size_t link, const double* w, double* impulse, double* slope, double* offset, double* tangent) const {
+void CentralPath::linearise(size_t link, const double* w, double* impulse, double* slope, double* offset, double* tangent) {
     const size_t hinge = at(p_.hinge_index(link));
-    path_tangent(p_.model.hinges[hinge], p_.frozen[hinge], point_[hinge], mu_, offset, tangent);
+    tangent_[hinge] = path_tangent(p_.model.hinges[hinge], p_.frozen[hinge], point_[hinge], mu_, offset, tangent);
     add_beside(p_.model.hinges[hinge], p_.frozen[hinge], w, impulse, slope, nullptr);
 }
 
 // Start points: those kept from the last path of this step, or from the moments of the last step and the guessed rates.  Returns the
-// largest rate.
+// largest rate, which before an impact is that of closing contacts, because no hinge turns yet.
 double CentralPath::enter(bool warm) {
     double largest = 0;
     on_.assign(p_.connections.size(), 0);
     point_.resize(p_.frozen.size());
+    tangent_.resize(p_.frozen.size());
     for (size_t c = 0; c < p_.connections.size(); c++) {
+        const double* w = &p_.w[at(p_.start(c) + p_.system.links()[c].held)];
+        if (p_.is_contact(c)) largest = std::max(largest, -w[0] / p_.model.length);
         if (!p_.hinge_of(c) || !has_path(*p_.hinge_of(c), p_.frozen[at(p_.hinge_index(c))])) continue;
         on_[c] = 1;
-        const double* w = &p_.w[at(p_.start(c) + p_.system.links()[c].held)];
         for (int k = 0; k < p_.system.links()[c].laws; k++) largest = std::max(largest, std::fabs(w[k]));
     }
     warm = warm && kept_mu_ > 0;
@@ -84,7 +86,7 @@ double CentralPath::step(NewtonSolver& newton, bool together, double& least) {
         if (!on_[c]) continue;
         const size_t hinge = at(p_.hinge_index(c));
         const double* w = &p_.w[at(p_.start(c) + p_.system.links()[c].held)];
-        next_point_[hinge] = path_step(*p_.hinge_of(c), p_.frozen[hinge], point_[hinge], mu_, w);
+        next_point_[hinge] = path_step(*p_.hinge_of(c), p_.frozen[hinge], point_[hinge], tangent_[hinge], mu_, w);
         share_[hinge] = path_share(*p_.hinge_of(c), point_[hinge], next_point_[hinge]);
         least = std::min(least, share_[hinge]);
     }

@@ -23,7 +23,7 @@ public:
     bool follow(NewtonSolver& newton, bool together);
     // whether a link is linearised on the path, and its linearisation there
     bool on(size_t link) const { return on_[link] != 0; }
-    void linearise(size_t link, const double* w, double* impulse, double* slope, double* offset, double* tangent) const;
+    void linearise(size_t link, const double* w, double* impulse, double* slope, double* offset, double* tangent);
 
 private:
     double enter(bool warm);
@@ -34,6 +34,7 @@ private:
     bool exists_ = false;
     std::vector<char> on_;                                     // per link
     std::vector<CentralPoint> point_, next_point_, kept_point_;  // per hinge
+    std::vector<PathTangent> tangent_;                         // per hinge, at its present point
     std::vector<double> share_;                                // per hinge: share of the step to the next point
     double mu_ = 0, kept_mu_ = 0;                              // mu of the present and of the kept points [rad/s]; 0: none kept
 };

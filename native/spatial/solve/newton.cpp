@@ -7,9 +7,11 @@ namespace crumple::spatial {
 
 namespace {
 
-// Limits of full Newton steps, which fail only by cycling: before other methods, before the central path without and with contacts, later
-// in the same step.
+// Limits of full Newton steps, which fail only by cycling: before other methods, before the central path without and with contacts, after a
+// pass in which they cycled.
 constexpr int full_step_limit = 32, full_step_limit_before_path = 12, full_step_limit_with_contacts = 16, full_step_limit_after_cycle = 8;
+// Passes in a row in which they cycled, after which they are tried before the central path in one of so many passes only.
+constexpr int most_cycled = 4, passes_between = 16;
 // Limit of Newton iterations for each width of the ramps before the time step is shortened: a fixed number and some per hinge, because
 // in the worst case (an impulse on the end of a long chain) hinges lock and release one at a time.
 constexpr int newton_limit = 60, newton_limit_per_hinge = 4;
@@ -49,14 +51,13 @@ void NewtonSolver::begin(bool warm, bool rubs) {
     last_solve_ = solves_ + most_solves * most_iterations();
     if (!warm) {
         path_.forget();
-        full_steps_ = true;
+        if (!path_.exists()) cycled_ = 0;
     }
     solved_ = solved_ && warm;
 }
 
 void NewtonSolver::start_from(const std::vector<double>& rates) {
     path_.forget();
-    full_steps_ = true;
     solved_ = rates.size() == p_.w.size();
     if (solved_) p_.w = rates;
 }
@@ -82,8 +83,18 @@ void NewtonSolver::take() {
     p_.w.swap(p_.w_next);
 }
 
-// Full Newton steps first (with line search if some hinges are not rigid), unless they cycled before in this step; then the central
-// path; the globally convergent method last.
+// Limit of full Newton steps before the next method.  Where they cycle before a central path, they mostly do in the passes that follow too, of
+// other steps as well.
+int NewtonSolver::most_full_steps(bool path) const {
+    if (!path && !p_.all_set_valued) return most_iterations();
+    if (path && cycled_ >= most_cycled && left_out_ + 1 < passes_between) return 0;
+    if (cycled_ > 0) return full_step_limit_after_cycle;
+    if (!path) return full_step_limit;
+    return p_.contacts.size() > 0 ? full_step_limit_with_contacts : full_step_limit_before_path;
+}
+
+// Full Newton steps first (with line search if some hinges are not rigid), unless they cycled before; then the central path; the globally
+// convergent method last.
 bool NewtonSolver::solve_laws() {
     tolerance_ = finest_tolerance();
     energy_ = 0;
@@ -101,13 +112,15 @@ bool NewtonSolver::solve_laws() {
     };
     // without inertia a locked hinge is so stiff that the rates that release it are lost in rounding: begin with wide ramps
     if (p_.stage.quasi_static) return narrow_ramps();
-    const bool touching = p_.contacts.size() > 0, follows = path_.exists() && (!touching || p_.all_set_valued);
-    int limit = full_steps_ ? full_step_limit : full_step_limit_after_cycle;
-    if (!follows && !p_.all_set_valued) limit = most_iterations();
-    if (follows && full_steps_) limit = touching ? full_step_limit_with_contacts : full_step_limit_before_path;
-    if (follows && !full_steps_ && !touching) limit = 0;
-    if (descend(limit, p_.all_set_valued, follows ? 0 : first_found_steps)) return true;
-    full_steps_ = false;
+    const bool follows = path_.exists() && (p_.contacts.size() == 0 || p_.all_set_valued);
+    const int limit = most_full_steps(follows);
+    const bool solved = descend(limit, p_.all_set_valued, follows ? 0 : first_found_steps);
+    // what is only looked at between steps changes nothing for those that follow
+    if (rubs_) {
+        cycled_ = solved ? 0 : cycled_ + (limit > 0);
+        left_out_ = limit > 0 ? 0 : left_out_ + 1;
+    }
+    if (solved) return true;
     if (follows) {
         for (const bool together : {false, true}) {
             restart();

@@ -46,6 +46,7 @@ private:
     const Evaluated& evaluate(size_t link, const double* w);
     double finest_tolerance() const;
     int most_iterations() const;
+    int most_full_steps(bool path) const;
     bool narrow_ramps();
     void widen(double width, bool& narrowest);
     bool descend(int limit, bool full_steps, int found = 0);
@@ -83,7 +84,7 @@ private:
     std::vector<bool> pressed_;                 // contacts that were pressed in one of them
     bool in_turns_ = false;                     // contacts took the load in turns, and do not together
     bool presses_ = true;                       // they did so together before in this step
-    bool full_steps_ = true;                    // full Newton steps have not cycled in this step
+    int cycled_ = 0, left_out_ = 0;             // passes in a row in which full Newton steps cycled, and passes since that left them out
     double tolerance_ = 0;                      // relative tolerance of impulses at the present width of the ramps
     double energy_ = 0;                         // kinetic energy of the free motion [J]
     std::int64_t solves_ = 0, last_solve_ = 0;  // number of solves, and the number at which the present step is abandoned
