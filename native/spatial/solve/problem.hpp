@@ -59,8 +59,10 @@ struct Problem {
     size_t contact_rows() const { return static_cast<size_t>(start(connections.size() - contacts.size())); }
     // share of a change of forces that is followed in a time; in quasi-static stages, and where all vibration is resolved, all of it
     double followed(double time) const { return stage.quasi_static ? 1 : 1 - std::exp(-time * model.resolved_frequency); }
-    // weight of the end of a step in the moments of elastic hinges, see `hinge::Span`
+    // weight of the end of a step in what acts in it without inertia
     double end_weight() const { return !stage.quasi_static ? 0.5 : stage.settling ? settling_weight : still_weight; }
+    // the same in the moments of elastic hinges in a step of length h, see `hinge::Span`
+    double elastic_weight(double h) const;
     // whether a step finds the balance of elastic forces without inertia; out of balance the middle keeps the energy
     bool balances() const { return stage.quasi_static && elastic && !stage.lost; }
     // share of a step after which forces and places are taken: where the elastic ones balance the loads, else its middle

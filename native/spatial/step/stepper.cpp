@@ -178,7 +178,7 @@ void Stepper::freeze(const State& s, double h) {
         SpatialHingeState state = s.hinge[at(hinge)];
         state.tension += p_.followed(h / 2) * (state.tension_aim - state.tension);
         state.torque_left += p_.followed(h / 2) * (state.torque_aim - state.torque_left);
-        p_.frozen[at(hinge)] = spatial::freeze(p_.model.hinges[at(hinge)], state, {h, p_.end_weight()}, &s.turned[k], &p_.rate0[first + held], &p_.w[first + held]);
+        p_.frozen[at(hinge)] = spatial::freeze(p_.model.hinges[at(hinge)], state, {h, p_.elastic_weight(h)}, &s.turned[k], &p_.rate0[first + held], &p_.w[first + held]);
         spatial::widen(p_.model.hinges[at(hinge)], p_.frozen[at(hinge)], p_.least_width(p_.model.hinges[at(hinge)]));
         // one reversal is enough: a hinge that reverses in one pass and slides on in the next would alternate forever
         if (turned_back_[at(hinge)]) p_.frozen[at(hinge)].lead = 0;

@@ -16,8 +16,8 @@ size_t at(int i) { return static_cast<size_t>(i); }
 }  // namespace
 
 void VibrationFilter::prepare(double frequency, double h) {
-    // elastic laws have the tangent h^2 K/4 for the end rates of a step
-    const double scale = 2 / (2 * pi * frequency * h);
+    // with the weight s of the end elastic laws have the tangent s h^2 K/2 for the end rates of a step
+    const double scale = std::sqrt(2 / p_.elastic_weight(h)) / (2 * pi * frequency * h);
     p_.assemble();
     for (size_t c = 0; c < p_.connections.size(); c++) {
         if (p_.system.links()[c].laws > 0) set_tangent(c, scale);
