@@ -58,7 +58,7 @@ nb::dict to_dict(const EndValues& f, const Case& of, size_t n) {
 nb::dict solve(const std::vector<const Case*>& cases, const InNumbers& case_of, const Rows& velocity, const Rows& impulse,
                const Rows& capacity_scale, const Rows& load_scale, const Rows& bodies, const Rows& gravity, double accuracy,
                double minimum_step, double maximum_step, int threads, nb::object poll,
-               bool led, const std::vector<double>& times, int parts) {
+               bool led, const std::vector<double>& times, int parts, bool guided) {
     require(!cases.empty(), "at least one model is needed");
     require_all(cases);
     require_settings(accuracy, minimum_step, maximum_step, parts);
@@ -89,7 +89,7 @@ nb::dict solve(const std::vector<const Case*>& cases, const InNumbers& case_of, 
     v.bodies = rows(bodies, v.count, body_columns * n, "bodies must have shape (variants, bodies, 13)");
     v.gravity = rows(gravity, v.count, 3, "gravity must have shape (variants, 3)");
     const Settings settings{accuracy, minimum_step, maximum_step, parts};
-    const auto solver = led ? solve_led : solve_many;
+    const auto solver = led ? solve_led : guided ? solve_guided : solve_many;
     const EndValues end_values = unlocked(poll, [&](const auto& ask) { return solver(v, settings, threads, ask); });
     nb::dict found = to_dict(end_values, first, v.count);
     if (!times.empty()) found["samples"] = samples_of(end_values.samples, first, v.count * times.size());
@@ -106,7 +106,7 @@ void bind_batch(nb::module_& m) {
           nb::arg("capacity_scale").none(), nb::arg("load_scale").none(), nb::arg("bodies").none(), nb::arg("gravity").none(),
           nb::arg("accuracy"), nb::arg("minimum_step"), nb::arg("maximum_step"), nb::arg("threads"), nb::arg("poll").none(),
           nb::arg("led"), nb::arg("times") = std::vector<double>{}, nb::arg("parts") = 1,
-          "Solve every variant as one run would; or, led, the first so and the others in its steps.");
+          nb::arg("guided") = false, "Solve every variant as one run would; or, led, the first so and the others in its steps, or guided by them.");
 }
 
 }  // namespace crumple::spatial

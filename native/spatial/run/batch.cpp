@@ -123,6 +123,15 @@ public:
         }
         store(outcome);
     }
+    // of the steps of `run`; null if the variant was refused
+    std::shared_ptr<const Guide> keep_guide() {
+        if (!simulation_) return nullptr;
+        simulation_->keep_guide();
+        return simulation_->guide();
+    }
+    void be_guided_by(const std::shared_ptr<const Guide>& lead) {
+        if (simulation_) simulation_->be_guided_by(lead);
+    }
     void follow(const std::vector<StepRecords>& step_records) {
         bool solved = true;
         for (size_t k = 0; simulation_ && k < step_records.size() && solved; k++) {
@@ -240,6 +249,24 @@ EndValues solve_led(const Variations& v, const Settings& settings, int threads, 
     share_out(std::min<size_t>(v.count, 1), 1, 1, lead, poll);
     auto follow = [&](size_t row, const std::function<bool(double)>&) { Tour(v, row + 1, settings, out).follow(step_records); };
     if (v.count > 1) share_out(v.count - 1, 1, threads, follow, poll);
+    return out;
+}
+
+EndValues solve_guided(const Variations& v, const Settings& settings, int threads, const std::function<bool(double)>& poll) {
+    EndValues out = sized(*v.cases.front(), v.count, v.times.size());
+    std::shared_ptr<const Guide> guide;
+    auto lead = [&](size_t row, const std::function<bool(double)>& go_on) {
+        Tour tour(v, row, settings, out);
+        guide = tour.keep_guide();
+        tour.run(go_on, nullptr);
+    };
+    share_out(std::min<size_t>(v.count, 1), 1, 1, lead, poll);
+    auto solve = [&](size_t row, const std::function<bool(double)>& go_on) {
+        Tour tour(v, row + 1, settings, out);
+        tour.be_guided_by(guide);
+        tour.run(go_on, nullptr);
+    };
+    if (v.count > 1) share_out(v.count - 1, 1, threads, solve, poll);
     return out;
 }
 

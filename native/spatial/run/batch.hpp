@@ -73,4 +73,7 @@ EndValues solve_many(const Variations& variations, const Settings& settings, int
 // whose equations cannot be solved has the outcome `step_collapsed`.
 EndValues solve_led(const Variations& variations, const Settings& settings, int threads, const std::function<bool(double)>& poll);
 
+// Solves the first variant, and then the others, guided by its steps (guide.hpp), each independently.
+EndValues solve_guided(const Variations& variations, const Settings& settings, int threads, const std::function<bool(double)>& poll);
+
 }  // namespace crumple::spatial

@@ -128,6 +128,7 @@ class _Spatial:
         led: bool,
         times: Sequence[float] = (),
         parts: int = 1,
+        guided: bool = False,
     ) -> dict[str, Any]: ...
 
     HingeElement: Any

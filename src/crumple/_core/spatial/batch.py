@@ -83,6 +83,7 @@ def solve_many(
     led: bool = False,
     times: Sequence[float] = (),
     parts: int = 1,
+    guided: bool = False,
 ) -> SpatialEndValues:
     """Solve every variant through its stages, bit for bit as a `SpatialSimulation` of it.
 
@@ -94,6 +95,9 @@ def solve_many(
     Newton's method the first Newton step from the leader's: half the difference of two of them that lie close
     above and below the leader is the derivative of the run, see docs/theory/sensitivities.md.  Runs with
     contact have no followers.
+
+    `guided`: the others solve their own equations, and take from the steps of the first one what a run that
+    `SpatialSimulation.be_guided_by` another takes: their lengths and the starts of their solution.
     """
     out = _kernels.spatial.solve_many(
         [kernel_case(case) for case in variants.cases],
@@ -107,6 +111,7 @@ def solve_many(
         led,
         times,
         parts,
+        guided,
     )
     samples = named(out.pop("samples", {}))
     return SpatialEndValues(**named(out), samples=samples)

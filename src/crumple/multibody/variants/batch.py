@@ -86,10 +86,13 @@ class Batch(ABC):
     as_answer
         Take the steps of the answer of `solve_multibody`, at a quarter of the accuracy, so that a variant
         without changes has its bits; else those of its run that estimates the error.
+    guided
+        In space, all but the first take the lengths of its steps and the starts of their solution, as the
+        runs of a mechanism check do; errors of elastic members are those of its steps then.
     """
 
-    def __init__(self, run: Run, *, as_answer: bool = False) -> None:
-        self.run, self.as_answer = run, as_answer
+    def __init__(self, run: Run, *, as_answer: bool = False, guided: bool = False) -> None:
+        self.run, self.as_answer, self.guided = run, as_answer, guided
         self.accuracy = run.settings.accuracy / (CHECK_FACTOR if as_answer else 1.0)
         self.parts = 2 if as_answer else 1
 
@@ -243,7 +246,15 @@ class SpatialBatch(Batch):
             longest = min(longest, self.run.every / 2)
         bounds, parts = (settings.minimum_time_step, longest), self.parts
         return spatial_kernel.solve_many(
-            variants, self.accuracy, *bounds, threads, poll=poll, led=led, times=times, parts=parts
+            variants,
+            self.accuracy,
+            *bounds,
+            threads,
+            poll=poll,
+            led=led,
+            times=times,
+            parts=parts,
+            guided=self.guided,
         )
 
     def repeat(

@@ -91,14 +91,17 @@ def modes(
     names = [hinge.name for hinge in plastic_hinges(structure)]
     if unasked or len(names) < 2 or not is_impact(structure, run):
         return None
-    runs = {**_capacities(structure), **_friction(structure), **contact_points(structure, run)}
-    runs |= _stiffness(structure, run)
-    table = solve_variants(structure, run, _columns(structure, runs), threads, progress, cancel)
+    # nothing is changed in the first one, which leads the others
+    runs: dict[str, Changes] = {RESULT: {}, **_capacities(structure), **_friction(structure)}
+    runs |= contact_points(structure, run) | _stiffness(structure, run)
+    table = solve_variants(structure, run, _columns(structure, runs), threads, progress, cancel, guided=True)
     table.need_all("the modes of collapse are")
     last = {name: channel.values[-1] for name, channel in result.channels.items()}
-    found: dict[str, _Ended | None] = {RESULT: _ended(last, names)}
+    found: dict[str, _Ended | None] = {}
     for i, (name, changes) in enumerate(runs.items()):
-        if table.reason[i] == OTHER_PARTS:
+        if name == RESULT:
+            found[name] = _ended(last, names)
+        elif table.reason[i] == OTHER_PARTS:
             found[name] = _alone(changed(structure, changes), run, changes, threads, cancel)
         else:
             found[name] = _row(table, i, names) if table.status[i].ok else None

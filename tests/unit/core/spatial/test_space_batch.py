@@ -104,6 +104,30 @@ def test_same_bits_as_single_runs(variants):
             np.testing.assert_array_equal(getattr(ends.summary, name)[row], column, err_msg=name)
 
 
+def test_guided_variants_have_the_bits_of_runs_that_the_first_one_guides(variants):
+    """Gravity, motion and stages varied; the first one keeps the bits of a run by itself."""
+    plain = replace(variants, capacity_scale=None, load_scale=None, bodies=None)
+    free, ends = solve_many(plain), solve_many(plain, guided=True, threads=2)
+    assert set(ends.outcome) == {Outcome.COMPLETE}
+    np.testing.assert_array_equal(ends.centre[0], free.centre[0])
+    assert (ends.centre[1:] != free.centre[1:]).any()
+    guide = None
+    for row in (0, 5):
+        case = variants.cases[variants.case_of[row]]
+        simulation = SpatialSimulation(replace(case.model, gravity=tuple(map(float, variants.gravity[row]))))
+        if guide is None:
+            simulation.keep_guide()
+            guide = simulation.guide
+        else:
+            simulation.be_guided_by(guide)
+        for k, stage in enumerate(case.stages):
+            simulation.stage(quasi_static=stage.quasi_static, until=stage.until)
+            simulation.set_motion(variants.velocity[row, k], variants.impulse[row, k])
+            record = simulation.run(np.array([simulation.time + stage.duration]))
+        np.testing.assert_array_equal(ends.centre[row], record.centre[-1])
+        np.testing.assert_array_equal(ends.velocity[row], record.velocity[-1])
+
+
 def scaled(component, scale):
     """Component with both capacities multiplied."""
     curves = {name: getattr(component, name) for name in ("positive", "negative")}
