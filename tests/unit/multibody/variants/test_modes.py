@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from crumple._core.spatial.batch import solve_many
 from crumple.analysis import loads, solve, with_modes
 from crumple.analysis.solve import run_of
 from crumple.cli.main import app
@@ -211,7 +212,12 @@ def test_capacities_friction_and_stiffness_change_by_their_shares(monkeypatch):
         asked.append(columns)
         return solve_variants(structure, run, columns, *rest, guided=guided)
 
+    def solve_guided(*given, guided, **keys):
+        assert guided
+        return solve_many(*given, guided=guided, **keys)
+
     monkeypatch.setattr("crumple.multibody.variants.modes.solve_variants", solve_and_keep)
+    monkeypatch.setattr("crumple.multibody.variants.batch.spatial_kernel.solve_many", solve_guided)
     analysis = rail(0.2, members="elastic")
     result = solve(analysis)
     modes(analysis.structure, run_of(analysis), result)
