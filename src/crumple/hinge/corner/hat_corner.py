@@ -39,7 +39,7 @@ from crumple.errors import InputError, Problem
 from crumple.hinge.bending.capped import CappedMechanism
 from crumple.hinge.bending.profiles.folded_profile import FoldedProfileLaw, not_compared
 from crumple.hinge.bending.profiles.profile_mechanism import ProfileMechanism
-from crumple.hinge.corner.in_plane import Closing, InPlaneLaw, rounded, slope_of
+from crumple.hinge.corner.in_plane import TOUCHING, Closing, InPlaneLaw, jammed, jamming_of, rounded, slope_of
 from crumple.hinge.law import Source, Trust, Validity
 from crumple.hinge.tube_library.hardening import HardeningEffect, at_yield
 from crumple.material import Material
@@ -60,6 +60,8 @@ CLOSING, OPENING = 0.45, 1.5
 """c and d of the folds of both senses [-]."""
 CROWN, PLATE, OPENED = 2.0, 6.0, 4.0
 """p of a crown and of a plate inside, and n: transitions from the start to the fold [-]."""
+CROWN_FOLD = 1.1
+"""f of the fold of a crown inside [-]."""
 STRETCH = 0.9
 """u, rotation over which an opened corner becomes as strong as its members, over s [rad]."""
 WHOLE = math.radians(15.0)
@@ -69,7 +71,7 @@ STIFFNESS = 0.27
 """r of the elastic stiffness [-]."""
 FLATTEST = math.radians(30.0) * (1.0 - 1e-9)
 """Smallest angle of the corners that were solved by shells."""
-REACH = math.radians(20.0)
+REACH = math.radians(40.0)
 """Rotation up to which the corners were solved by shells."""
 UNCERTAINTY = 0.25
 """Half-width of the band [-]; see the table in the theory page."""
@@ -81,7 +83,7 @@ class HatCornerLaw(InPlaneLaw):
 
     Attributes
     ----------
-    start, plastic, slope, tube, closing, elastic_stiffness, validity
+    start, plastic, slope, tube, closing, elastic_stiffness, validity, jamming
         See `InPlaneLaw`.
     opened
         Moment at which it begins to turn when it is opened [N m].
@@ -124,6 +126,7 @@ class HatCornerLaw(InPlaneLaw):
         peaks = member.positive.peak, member.negative.peak
         inside, outside = peaks if plate_inside else peaks[::-1]
         depth = section.depth - section.thickness
+        bent = min(1.0, angle / WHOLE)
         return cls(
             min(start_of(section, metal, s, CLOSED_LIP), inside),
             max(peaks),
@@ -135,23 +138,29 @@ class HatCornerLaw(InPlaneLaw):
             min(start_of(section, metal, s, LIP), outside),
             _mechanism(section, metal, plate_pressed=plate_inside),
             _mechanism(section, metal, plate_pressed=not plate_inside),
-            min(1.0, angle / WHOLE),
+            bent,
             effect=_effect(section, material),
+            jamming=bent * jamming_of(section.width - section.thickness, depth, section.thickness),
         )
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
         """Rotations where the slope jumps [rad]: those of jamming, of hardening, and of the member."""
         own = () if self.bent == 1.0 else self._member(sense).mechanism.kinks
-        return tuple(sorted({self.inner.jamming_angle, *self.effect.rotation[1:], *own}))
+        end = self.inner.jamming_angle
+        jams = {at * end for at in TOUCHING} if self.jamming and self.closes(sense) else set()
+        return tuple(sorted({end, *jams, *self.effect.rotation[1:], *own}))
 
     def at_yield(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Capacity [N m] at a rotation [rad] of a metal that stays at its yield stress."""
-        upto = np.minimum(np.asarray(rotation, np.float64), self.inner.jamming_angle)
+        rotation, end = np.asarray(rotation, np.float64), self.inner.jamming_angle
+        upto = np.minimum(rotation, end)
         closes, member = self.closes(sense), self._member(sense)
         at_corner = (self.inner if closes else self.outer).moment(upto)
-        fold = self.bent * at_corner + (1.0 - self.bent) * member.mechanism.moment(upto)
+        share, power = (CROWN_FOLD, CROWN) if closes and sense < 0 else (1.0, PLATE)
+        fold = self.bent * share * at_corner + (1.0 - self.bent) * member.mechanism.moment(upto)
         if closes:
-            return rounded(self.start, (1.0 - CLOSING * self.slope) * fold, PLATE if sense > 0 else CROWN)
+            moment = rounded(self.start, (1.0 - CLOSING * self.slope) * fold, power)
+            return np.asarray(np.minimum(moment * jammed(rotation, end, self.jamming), self.plastic))
         opened = self.opened - (member.peak - self.opened) * np.expm1(-upto / (STRETCH * self.slope))
         return rounded(opened, (1.0 + OPENING * self.slope) * fold, OPENED)
 

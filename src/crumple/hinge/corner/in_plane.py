@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import ClassVar
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from crumple.errors import InputError, Problem
@@ -22,6 +23,10 @@ SMALLEST, LARGEST = math.radians(5.0) * (1.0 - 1e-9), math.radians(100.0) * (1.0
 shells join such members rigidly, and automatic hinges have no corner there."""
 SOFT = 0.7
 """e of the hardening of a closed corner [-]."""
+TOUCHING = (0.27, 1.35)
+"""Rotations between which the walls of a fold come to lie on each other, over its jamming angle."""
+JAMMING, WIDE, SLENDER = 1.25, 0.55, 2.0
+"""j, w and the largest q of the moment of a fold that jams [-]; no thinner walls were solved."""
 ROUNDING = 3.0
 """p of the transition from the start to the fold [-]."""
 
@@ -53,6 +58,8 @@ class InPlaneLaw:
         Of the corner's own walls [N m/rad].
     effect
         Of hardening on the straight member's fold.
+    jamming
+        Growth of the moment while the walls of the fold come to lie on each other [-].
     """
 
     name: ClassVar[str] = "mitred_corner"
@@ -68,6 +75,7 @@ class InPlaneLaw:
     elastic_stiffness: float | None
     validity: Validity
     effect: HardeningEffect = field(default_factory=HardeningEffect, kw_only=True)
+    jamming: float = field(default=0.0, kw_only=True)
 
     @property
     def title(self) -> str:
@@ -120,6 +128,21 @@ def slope_of(angle: float) -> float:
         todo = "use the law of the member, or one from shells"
         raise InputError(Problem(what, came, "5 to 100 deg", todo, "angle"))
     return math.sin(angle / 2.0)
+
+
+def jamming_of(across: float, deep: float, wall: float) -> float:
+    """Growth of the moment of a fold that jams [-], from the mid-lines of its faces and webs [m]."""
+    return JAMMING * max(0.0, deep / across - WIDE) * min(across / (25.0 * wall), SLENDER) ** 2
+
+
+def jammed(rotation: Floats, jamming_angle: float, amount: float) -> Floats:
+    """Factor on the moment of a fold whose walls come to lie on each other: 1, rising smoothly to 1 + amount.
+
+    It begins long before the angle at which the mechanism's walls would meet [rad], since those of a real
+    fold are not flat, and ends beyond it.
+    """
+    done = np.clip((rotation / jamming_angle - TOUCHING[0]) / (TOUCHING[1] - TOUCHING[0]), 0.0, 1.0)
+    return np.asarray(1.0 + amount * done**2 * (3.0 - 2.0 * done))
 
 
 def rounded(start: Floats | float, fold: Floats, power: float = ROUNDING) -> Floats:

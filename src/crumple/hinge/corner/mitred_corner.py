@@ -32,7 +32,7 @@ from numpy.typing import ArrayLike
 
 from crumple.hinge.bending.kecman import KecmanLaw
 from crumple.hinge.corner.hat_corner import HatCornerLaw
-from crumple.hinge.corner.in_plane import Closing, InPlaneLaw, rounded, slope_of
+from crumple.hinge.corner.in_plane import TOUCHING, Closing, InPlaneLaw, jammed, jamming_of, rounded, slope_of
 from crumple.hinge.corner.round_corner import RoundCornerLaw
 from crumple.hinge.law import Source, Trust, Validity
 from crumple.hinge.options import choice
@@ -55,7 +55,7 @@ CLOSING, OPENING, OPEN_RISE = 0.45, 0.75, 1.12
 """c, d and o of the moment of both senses [-]."""
 STIFFNESS = 0.34
 """r of the elastic stiffness [-]."""
-REACH = math.radians(40.0)
+REACH = math.radians(60.0)
 """Rotation up to which the corners were solved by shells."""
 UNCERTAINTY = 0.25
 """Half-width of the band [-]; see the table in the theory page."""
@@ -67,7 +67,7 @@ class MitredCornerLaw(InPlaneLaw):
 
     Attributes
     ----------
-    start, plastic, slope, tube, closing, elastic_stiffness, validity
+    start, plastic, slope, tube, closing, elastic_stiffness, validity, jamming
         See `InPlaneLaw`.
 
     References
@@ -130,36 +130,40 @@ class MitredCornerLaw(InPlaneLaw):
             STIFFNESS * material.youngs_modulus * wall * deep**2,
             Validity(REACH, "corners of other proportions were solved by shells that far", (), UNCERTAINTY),
             effect=HardeningEffect.of(section, material, axis),
+            jamming=jamming_of(across, deep, wall),
         )
 
     def kinks(self, sense: int = 1) -> tuple[float, ...]:
         """Rotations where the slope jumps [rad]."""
         end = self.tube.jamming_angle
-        hardens = self.effect.rotation[1:]
+        jams = {at * end for at in TOUCHING} if self.jamming else set()
+        hardens = {*self.effect.rotation[1:]}
         if self.closes(sense):
-            return tuple(sorted({end, *hardens}))
+            return tuple(sorted({end} | jams | hardens))
 
         def above(rotation: Floats) -> Floats:
-            return self._opening_start - self._opening_share * self.tube.moment_capacity(rotation)
+            return self._opening_start - self._opened_fold(rotation, sense)
 
         crossing = sign_change(above, 1e-4 * end, end * (1.0 - 1e-9))
         # the capped part of the straight member's curve has no kinks
-        governed = {kink for kink in self.tube.kinks(sense) if float(above(np.asarray(kink))) >= 0.0}
-        return tuple(sorted(governed | {*hardens} | (set() if crossing is None else {crossing})))
+        fold = {kink for kink in {*self.tube.kinks(sense)} | jams if float(above(np.asarray(kink))) >= 0.0}
+        return tuple(sorted(fold | hardens | (set() if crossing is None else {crossing})))
 
     def at_yield(self, rotation: ArrayLike, sense: int = 1) -> Floats:
         """Capacity [N m] at a rotation [rad] of a metal that stays at its yield stress."""
+        rotation = np.asarray(rotation, np.float64)
         if not self.closes(sense):
-            fold = self._opening_share * self.tube.moment_capacity(rotation, sense)
-            return np.asarray(np.minimum(self._opening_start, fold), np.float64)
-        upto = np.minimum(np.asarray(rotation, np.float64), self.tube.jamming_angle)
-        fold = (1.0 - CLOSING * self.slope) * self.tube.mechanism.moment(upto)
-        return rounded(self.start, fold)
+            return np.asarray(np.minimum(self._opening_start, self._opened_fold(rotation, sense)))
+        end = self.tube.jamming_angle
+        fold = (1.0 - CLOSING * self.slope) * self.tube.mechanism.moment(np.minimum(rotation, end))
+        moment = rounded(self.start, fold) * jammed(rotation, end, self.jamming)
+        return np.asarray(np.minimum(moment, self.plastic))
+
+    def _opened_fold(self, rotation: Floats, sense: int) -> Floats:
+        """Moment of the fold of an opened corner [N m]."""
+        fold = (1.0 + OPENING * self.slope) * self.tube.moment_capacity(rotation, sense)
+        return fold * jammed(rotation, self.tube.jamming_angle, self.jamming)
 
     @property
     def _opening_start(self) -> float:
         return min(OPEN_RISE * self.start, self.plastic)
-
-    @property
-    def _opening_share(self) -> float:
-        return 1.0 + OPENING * self.slope

@@ -121,17 +121,32 @@ def test_the_moment_at_the_start_is_that_of_webs_and_of_sheets_that_bend(lip):
 
 @pytest.mark.parametrize(("closing", "sense", "power"), [(PLATE, 1, 6.0), (CROWN, -1, 2.0)])
 def test_a_closing_corner_falls_from_its_start_and_holds_from_where_its_fold_jams(closing, sense, power):
-    law = corner(closing=closing)
+    """Of a wide hat, whose walls do not come to lie on each other before."""
+    law = corner(closing=closing, section=ClosedHat(0.060, 0.033, 0.0015, 0.020))
+    assert law.jamming == 0.0
     at = np.radians(np.linspace(0.0, 60.0, 601))
     moment = law.moment_capacity(at, sense)
     assert (np.diff(moment) <= 1e-9 * law.start).all()
-    fold = (1.0 - 0.45 * law.slope) * law.inner.moment(at[1:])
+    fold = (1.1 if sense < 0 else 1.0) * (1.0 - 0.45 * law.slope) * law.inner.moment(at[1:])
     k = int(np.argmin(np.abs(fold - law.start))) + 1
     assert moment[k] == pytest.approx(2.0 ** (-1.0 / power) * law.start, rel=0.01)
     (jammed,) = law.kinks(sense)
     before, there, after = law.moment_capacity(np.array([0.98, 1.0, 1.02]) * jammed, sense)
     assert before > there == after
     assert (law.moment_capacity(0.2, sense) < law.moment_capacity(0.2, -sense)).all()
+
+
+@pytest.mark.parametrize(("closing", "sense"), [(PLATE, 1), (CROWN, -1)])
+def test_the_fold_of_a_deep_hat_jams_when_it_closes(closing, sense):
+    law = corner(closing=closing)
+    grown = 1.25 * (48.5 / 58.5 - 0.55) * (58.5 / (25.0 * 1.5)) ** 2
+    at = law.inner.jamming_angle * np.array([0.27, 0.81, 1.35, 1.6])
+    falls = replace(law, jamming=0.0)
+    gain = law.moment_capacity(at, sense) / falls.moment_capacity(at, sense) - 1.0
+    np.testing.assert_allclose(gain, grown * np.array([0.0, 0.5, 1.0, 1.0]))
+    np.testing.assert_allclose(law.moment_capacity(at, -sense), falls.moment_capacity(at, -sense))
+    # towards the line it is the member's fold
+    assert corner(7.5, closing).jamming == pytest.approx(grown / 2.0)
 
 
 def test_an_opened_corner_rises_towards_its_members_and_folds_at_last():

@@ -20,6 +20,7 @@ from crumple.structure import plastic_hinges
 
 STEEL = Material("steel", 210e9, 0.3, 7850.0, 350e6)
 TUBE = RectangularTube(0.050, 0.050, 0.002)
+WIDE = RectangularTube(0.080, 0.040, 0.002)
 RIGHT = math.radians(90.0)
 FRAME = """crumple: 1
 materials:
@@ -43,8 +44,8 @@ def frame(section: str = "square_tube, side: 50 mm", arm: str = "[corner, tip]")
 
 
 def test_a_corner_in_line_is_the_straight_member():
-    """Opened at once; closed where neither the start nor the fold governs alone."""
-    law = build_law("mitred_corner", TUBE, STEEL, "y", angle=math.radians(5.0))
+    """Opened at once; closed where neither the start nor the fold governs alone; before walls jam."""
+    law = replace(build_law("mitred_corner", TUBE, STEEL, "y", angle=math.radians(5.0)), jamming=0.0)
     straight = build_law("kecman", TUBE, STEEL, "y")
     at = np.radians([0.0, 2.0, 10.0, 30.0])
     np.testing.assert_allclose(law.moment_capacity(at, -1), straight.moment_capacity(at), rtol=0.04)
@@ -54,7 +55,7 @@ def test_a_corner_in_line_is_the_straight_member():
 
 def test_a_closing_corner_falls_from_its_start_to_the_fold():
     """Where both would carry the same moment it carries 2^(-1/3) of it."""
-    law = build_law("mitred_corner", TUBE, STEEL, "y", angle=RIGHT)
+    law = build_law("mitred_corner", WIDE, STEEL, "y", angle=RIGHT)
     at = np.radians(np.linspace(0.0, 60.0, 601))
     moment = law.moment_capacity(at)
     assert moment[0] == pytest.approx(law.start, rel=1e-3)
@@ -62,6 +63,20 @@ def test_a_closing_corner_falls_from_its_start_to_the_fold():
     fold = (1.0 - 0.45 * law.slope) * law.tube.mechanism.moment(at[1:])
     k = int(np.argmin(np.abs(fold - law.start))) + 1
     assert moment[k] == pytest.approx(2.0 ** (-1.0 / 3.0) * law.start, rel=0.01)
+
+
+def test_a_fold_as_deep_as_wide_jams():
+    """From 0.27 to 1.35 of the angle at which its walls meet, by half a smooth step in the middle."""
+    law = build_law("mitred_corner", TUBE, STEEL, "y", angle=RIGHT)
+    grown = 1.25 * (1.0 - 0.55) * (0.048 / (25.0 * 0.002)) ** 2
+    end = law.tube.jamming_angle
+    at = end * np.array([0.27, 0.81, 1.35, 2.0])
+    falls = replace(law, jamming=0.0).moment_capacity(at)
+    np.testing.assert_allclose(law.moment_capacity(at) / falls - 1.0, grown * np.array([0.0, 0.5, 1.0, 1.0]))
+    # a wide one does not, and the walls of a very thin one carry no more than the members
+    assert build_law("mitred_corner", WIDE, STEEL, "y", angle=RIGHT).jamming == 0.0
+    deep = build_law("mitred_corner", RectangularTube(0.05, 0.15, 0.0008), STEEL, "y", angle=RIGHT)
+    assert deep.moment_capacity(1.0) <= deep.plastic
 
 
 def test_the_moment_at_the_start_is_that_of_webs_and_strips_of_the_flanges():
@@ -91,7 +106,7 @@ def test_the_closing_sense_is_the_weaker_one_and_can_be_either():
 
 
 def test_kinks_are_where_the_slope_jumps():
-    law = build_law("mitred_corner", TUBE, STEEL, "y", angle=RIGHT)
+    law = build_law("mitred_corner", WIDE, STEEL, "y", angle=RIGHT)
     # opened, the first one is where the mechanism begins to govern
     first = next(at for at in law.kinks(-1) if 0.0 < at < np.radians(40.0))
     before, after = law.moment_capacity(np.array([0.98, 1.02]) * first, -1)
