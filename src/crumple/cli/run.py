@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -14,20 +13,13 @@ import typer
 from crumple.cli.console.beside import Moded, Uncertain, say_no_modes, with_its_modes, with_scatter
 from crumple.cli.console.fidelity import Fidelity
 from crumple.cli.console.laws import Freeze, Laws, law_lines, range_lines, with_range, with_store
-from crumple.numeric.ranking import largest_first
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
-
-    from rich.table import Table
+    from collections.abc import Iterator
 
     from crumple.analysis import LoadedInput
-    from crumple.result import CrumpledEnd, DentedWall, HingeSummary, Result
+    from crumple.result import Result
 
-MOST_HINGES = 20
-"""Number of hinges in the table; the files contain all."""
-MOST_OF_NAMES = 22
-"""Width up to which names in tables are not broken: with the figures, 80 columns."""
 QUICK = 5.0
 """Processor time of a run up to which range from the hinge laws and modes are computed unasked [s].
 Wall time depends on what else the machine does, and what a run reports must not."""
@@ -238,6 +230,7 @@ def _show(result: Result, folder: Path, source: LoadedInput) -> None:
     from rich.console import Console
     from rich.text import Text
 
+    from crumple.cli.tables import MOST_HINGES, hinge_tables, most_yielding, output_tables
     from crumple.report.wording.key_figures import between_hinges
     from crumple.report.wording.scatter import sentences as sentences_of_scatter
     from crumple.result import sentences
@@ -253,14 +246,18 @@ def _show(result: Result, folder: Path, source: LoadedInput) -> None:
         console.print(Text(f"Caution: {caution}", style="bold yellow"))
     bending = {name: hinge for name, hinge in result.hinges.items() if hinge.bends}
     crushing = {name: hinge for name, hinge in result.hinges.items() if hinge.crush is not None}
-    for table in _tables(result, bending, crushing):
+    for table in (
+        *output_tables(result, source.analysis.outputs.clearances),
+        *hinge_tables(result, bending, crushing),
+    ):
         console.print(table)
     if max(len(bending), len(crushing)) > MOST_HINGES:
         console.print(
             f"At most {MOST_HINGES} of {len(result.hinges)} hinges, those with the largest absorbed energy"
         )
     if result.hinges and (rest := between_hinges(result)) > 0.0:
-        console.print(f"Members absorbed {format_quantity(rest, 'J')} more, which no hinge of the table has")
+        where = most_yielding(result)
+        console.print(f"Members absorbed {format_quantity(rest, 'J')} more between hinges{where}")
     for line in range_lines(result):
         console.print(Text(line), soft_wrap=True)
     if result.modes is not None and result.modes.unique:
@@ -278,104 +275,3 @@ def _show(result: Result, folder: Path, source: LoadedInput) -> None:
             continue
         console.print(Text(f"Warning: {warning}", style="yellow"))
     console.print(Text(f"Results: {folder}  (open {folder / 'report.html'})"), soft_wrap=True)
-
-
-def _most_absorbing(hinges: Mapping[str, HingeSummary]) -> list[tuple[str, HingeSummary]]:
-    """Hinges in their order; of many, those with the largest absorbed energy."""
-    if len(hinges) <= MOST_HINGES:
-        return list(hinges.items())
-    ranked = largest_first({name: hinge.energy for name, hinge in hinges.items()})
-    return [(name, hinges[name]) for name in ranked[:MOST_HINGES]]
-
-
-def _hinge_table(summaries: Mapping[str, HingeSummary]) -> Table:
-    """One row per hinge that bends or twists."""
-    hinges = _most_absorbing(summaries)
-    columns = (
-        ("Largest rotation", [hinge.rotation_max for _, hinge in hinges], "rad"),
-        ("Final rotation", [hinge.rotation_final for _, hinge in hinges], "rad"),
-        ("At rest from", [hinge.time_of_rest for _, hinge in hinges], "s"),
-        ("Peak moment", [hinge.moment_max for _, hinge in hinges], "N*m"),
-        ("Energy absorbed", [hinge.energy for _, hinge in hinges], "J"),
-    )
-    return _table("Hinge", [name for name, _ in hinges], columns)
-
-
-def _crush_table(summaries: Mapping[str, HingeSummary]) -> Table:
-    """One row per hinge that can shorten along its member."""
-    zones = [(name, hinge.crush) for name, hinge in _most_absorbing(summaries) if hinge.crush is not None]
-    columns = (
-        ("Crush length", [crush.length for _, crush in zones], "m"),
-        ("Peak force", [crush.peak_force for _, crush in zones], "N"),
-        ("Mean force", [crush.mean_force for _, crush in zones], "N"),
-        ("Energy absorbed", [crush.energy for _, crush in zones], "J"),
-        ("Stroke efficiency", [crush.efficiency for _, crush in zones], "1"),
-    )
-    names = [f"{name} (bottomed out)" if crush.bottomed_out else name for name, crush in zones]
-    return _table("Crush zone", names, columns)
-
-
-def _stretch_table(summaries: Mapping[str, HingeSummary]) -> Table:
-    """One row per hinge that lengthened along its member."""
-    hinges = [(name, h.stretch) for name, h in _most_absorbing(summaries) if h.stretch is not None]
-    columns = (
-        ("Lengthening", [stretch.length for _, stretch in hinges], "m"),
-        ("Peak tension", [stretch.peak_force for _, stretch in hinges], "N"),
-        ("Energy of tension", [stretch.energy for _, stretch in hinges], "J"),
-    )
-    return _table("Stretched hinge", [name for name, _ in hinges], columns)
-
-
-def _tables(
-    result: Result, bending: dict[str, HingeSummary], crushing: dict[str, HingeSummary]
-) -> Iterator[Table]:
-    """Tables of hinges that bend, are crushed or stretched, of crumpled ends, and of dents; none is empty."""
-    if bending:
-        yield _hinge_table(bending)
-    if crushing:
-        yield _crush_table(crushing)
-    if any(hinge.stretch is not None for hinge in result.hinges.values()):
-        yield _stretch_table(result.hinges)
-    if result.crumpled_ends:
-        yield _crumpled_table(result.crumpled_ends)
-    if result.dents:
-        yield _dent_table(result.dents)
-
-
-def _crumpled_table(ends: Sequence[CrumpledEnd]) -> Table:
-    """One row per free end that crumpled on a plane."""
-    columns = (
-        ("Depth", [end.depth for end in ends], "m"),
-        ("Energy absorbed", [end.energy for end in ends], "J"),
-    )
-    return _table("Crumpled end", [f"{end.node} on {end.obstacle}" for end in ends], columns)
-
-
-def _dent_table(dents: Sequence[DentedWall]) -> Table:
-    """One row per dent in the wall of a tube."""
-    columns = (
-        ("Depth", [dent.depth for dent in dents], "m"),
-        ("Energy absorbed", [dent.energy for dent in dents], "J"),
-    )
-    return _table("Dent", [f"{dent.member} under {dent.obstacle}" for dent in dents], columns)
-
-
-def _table(what: str, names: list[str], columns: tuple[tuple[str, list[Any], str], ...]) -> Table:
-    """A table of named rows; every column in one unit."""
-    from rich.markup import escape
-    from rich.table import Table
-
-    from crumple.cli.console.columns import in_one_unit
-
-    table = Table(padding=(0, 1, 0, 0))
-    # heads wrap between words; names are needed whole
-    table.add_column(what, no_wrap=True)
-    broken = (re.findall(f".{{1,{MOST_OF_NAMES}}}", name) for name in names)
-    cells = [["\n".join(map(escape, parts)) for parts in broken]]
-    for head, values, si in columns:
-        unit, texts = in_one_unit(values, si, absent="turning")
-        table.add_column(f"{head}, {unit}" if unit else head, justify="right")
-        cells.append(texts)
-    for row in zip(*cells, strict=True):
-        table.add_row(*row)
-    return table
