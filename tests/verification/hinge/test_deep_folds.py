@@ -4,9 +4,9 @@ The sub-models of `crumple.characterisation.Bending` with four elements along ha
 says so), bent in the plane by end moments to 75 degrees, or to where their ends meet: plastic work in J up to
 20, 30, 50 and 70 degrees. The form of the growing moment was found with the rectangular corners `FITTED`;
 five more, listed before they were solved, gave the power of the slenderness and are in the fit (`SLENDER`).
-Nothing was fitted to the others, nor to opened corners. Of the hats the fold of a crown inside was fitted to the first four.
-Tolerance: 17 % of rectangular tubes (found: 16 %, without jamming 43 %), and of hats the band of 25 % that
-the law states (found: 24 %, without 41 %).
+Nothing was fitted to the others, nor to opened corners. Of the hats the fold of a crown inside was fitted to
+the first four. Tolerance: 17 % of rectangular tubes (found: 16 %, without jamming 43 %), and of hats the band
+of 25 % that the law states (found: 24 %, without 41 %).
 
 Kind: independent calculation.  Source: run here.
 """

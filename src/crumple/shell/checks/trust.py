@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from crumple._core.shell.simulation import Element, ShellState
+from crumple.numeric.arrays import Floats
 from crumple.result import StageSummary
 from crumple.shell.answer.record import ENERGIES, Record
 from crumple.shell.answer.weld_histories import weld_assumptions, weld_warnings
@@ -26,6 +27,8 @@ LOST_SHARE = 5e-3
 """Share of the given energy that may vanish at the start before a warning."""
 HOURGLASS_SHARE = 0.05
 """Hourglass energy over the largest internal energy above which there is a warning."""
+GIVEN_BY_CONTACT = 0.01
+"""Energy that contact forces gave to the walls, over the largest internal energy, for a warning."""
 PRESSED_IN = 0.5
 """Penetration over the contact distance above which there is a warning."""
 ADDED_SHARE = 0.01
@@ -122,6 +125,7 @@ def warnings(structure: Structure, case: ShellCase, record: Record, state: Shell
             f"Hourglass energy reaches {hourglass / internal:.1%} of the internal energy: "
             "refine the mesh, or use the other hourglass control."
         )
+    found += given_by_contact(energy["contact"], internal)
     depth = state.deepest_penetration
     if depth > 1.0:
         found.append(
@@ -150,6 +154,25 @@ def warnings(structure: Structure, case: ShellCase, record: Record, state: Shell
             "motion is not compatible with the supports and rigid sections."
         )
     return tuple(found)
+
+
+def given_by_contact(contact: Floats, internal: float) -> list[str]:
+    """The warning where contact forces gave energy to the walls, as where these slide off each other's edges.
+
+    Parameters
+    ----------
+    contact
+        Minus the work of the contact forces at the outputs [J].
+    internal
+        Largest internal energy [J].
+    """
+    given = -float(contact.min(initial=0.0))
+    if internal <= LEAST_ENERGY or given <= GIVEN_BY_CONTACT * internal:
+        return []
+    return [
+        f"Contact forces gave the walls {given:.4g} J ({given / internal:.1%} of the internal energy) that "
+        "nothing put in: what was dissipated is too large by that much. Compare with a finer mesh."
+    ]
 
 
 def slow_warnings(stages: Sequence[Stage], ended: Sequence[StageSummary], record: Record) -> tuple[str, ...]:
