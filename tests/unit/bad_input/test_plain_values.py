@@ -105,3 +105,37 @@ def test_a_wrong_word_in_fix_says_what_to_write():
     (problem,) = caught.value.problems
     assert problem.what == "'everything' is not a degree of freedom"
     assert "write 'fix: all' for a clamp" in problem.todo
+
+
+@pytest.mark.parametrize(
+    ("given", "where", "count", "example"),
+    [
+        ("gravity: -9.81 m/s^2", "gravity", 3, ", as [0 m/s^2, 0 m/s^2, -9.81 m/s^2]"),
+        ("gravity: down", "gravity", 3, ""),
+        ("gravity: {z: -9.81 m/s^2}", "gravity", 3, ""),
+    ],
+)
+def test_a_value_for_a_list_is_told_how_many_entries_it_has(given, where, count, example):
+    with pytest.raises(InputError) as caught:
+        loads(GOOD.replace("\nsupports:", f"\n{given}\nsupports:"))
+    (problem,) = caught.value.problems
+    assert problem.where == where
+    assert problem.allowed == f"a list of {count} entries in brackets"
+    assert problem.todo == f"write a list of {count} entries in brackets{example}"
+
+
+def test_a_list_of_any_length_has_no_number_of_entries():
+    with pytest.raises(InputError) as caught:
+        loads(GOOD.replace("\nsupports:", "\nimpulses: 5 N*s\nsupports:"))
+    (problem,) = caught.value.problems
+    assert (problem.allowed, problem.todo) == ("a list in brackets", "write a list in brackets")
+
+
+def test_a_freedom_that_is_fixed_and_driven_is_named():
+    moved = "{havsin: {x0: 0 s, h0: 0 m, x1: 1 ms, h1: 3 mm}}"
+    support = f"{{node: tip, fix: [x, rx], motion: {{x: {moved}, y: {moved}}}}}"
+    with pytest.raises(InputError) as caught:
+        loads(GOOD.replace("supports: {clamp", f"supports: {{push: {support}, clamp"))
+    (problem,) = caught.value.problems
+    assert problem.what == "x is both fixed and driven"
+    assert problem.where == "supports.push.motion"

@@ -70,9 +70,11 @@ class Support(Spec):
     def _holds_something(self) -> Support:
         if not self.held and not self.driven:
             refuse("the support fixes nothing", todo="add 'fix' or 'motion'")
-        if isinstance(self.fix, tuple) and set(self.driven) & set(self.fix):
-            todo = "give it in 'fix' or in 'motion'"
-            refuse("the same degree of freedom is fixed and driven", key="motion", todo=todo)
+        both = [freedom for freedom in self.driven if isinstance(self.fix, tuple) and freedom in self.fix]
+        if both:
+            verb, one = ("is", "it") if len(both) == 1 else ("are", "each")
+            todo = f"give {one} in 'fix' or in 'motion'"
+            refuse(f"{' and '.join(both)} {verb} both fixed and driven", key="motion", todo=todo)
         return self
 
     @property

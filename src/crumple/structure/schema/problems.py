@@ -64,6 +64,8 @@ def placed_problems(
         problem = _problem(str(details["type"]), details["msg"], value, context, place, keys)
         if keys and reached and (types := _types_with(model, details["loc"])):
             problem = replace(problem, todo=f"remove it, or choose type {' or '.join(types)}, which has it")
+        if details["type"] == "tuple_type" and (count := _entries(model, details["loc"])):
+            problem = _listed(problem, value, count)
         if details["type"] == "missing" and place and isinstance(place[-1], int):
             # every missing entry is reported separately; the last one gives the required number
             short[place[:-1]] = (place[:-1], _too_short(value, place))
@@ -219,6 +221,24 @@ def _is_cut_by_commas(values: Iterable[object]) -> bool:
         isinstance(first, int) and re.match(r"\d+ [a-zA-Z]", str(rest)) is not None
         for first, rest in pairwise(given)
     )
+
+
+def _entries(model: type[BaseModel] | None, place: Place) -> int:
+    """Number of entries of the list of fixed length that is wanted at a place; 0: any."""
+    reached: list[Any] = [model]
+    for part in place:
+        reached = [deeper for kind in reached for deeper in _below(kind, part)]
+    lists = [get_args(kind) for kind in reached if get_origin(kind) is tuple]
+    return next((len(entries) for entries in lists if Ellipsis not in entries), 0)
+
+
+def _listed(problem: Problem, value: Any, count: int) -> Problem:
+    """The refusal of a value where a list of a number of entries is wanted, with an example of one."""
+    allowed = f"a list of {count} entries in brackets"
+    number, _, unit = value.partition(" ") if isinstance(value, str) else ("", "", "")
+    written = re.fullmatch(r"[-+.\deE]+", number) is not None and unit
+    example = f", as [{', '.join([f'0 {unit}'] * (count - 1) + [shown(value)])}]" if written else ""
+    return replace(problem, allowed=allowed, todo=f"write {allowed}{example}")
 
 
 def _too_short(value: Any, place: Place) -> Problem:
