@@ -6,7 +6,9 @@ law was solved with cantilevers of 6 and 8.  Solved once with shells by this pro
 half a fold), listed before any was solved.  Expected: work up to rotations of the chord of 4, 10 and 18
 degrees.  Tolerance: 12 %, of round tubes 6 % (found: 10 and 5 % at the largest; with hinges at 0.7 of half a
 fold and one law for all spans 16 and 10 %).  The last four, of soft metals, were listed and solved later:
-within 5 %, and 18 % too low to 13 % too high with the formula that hardens (`hardening_tube`).
+within 5 %, and 18 % too low to 13 % too high with the formula that hardens (`hardening_tube`). Spans of 1.1
+to 2 sides (4 to 5 mm elements): tolerance 20 % (found: 19 %, with the hinge where long spans have it 39 %);
+the last three were solved when the form was known.
 
 Places of folds and moments of short cantilevers: held-out tubes of the tables, solved by
 `python -m tools.law_clamped solve`.
@@ -74,12 +76,34 @@ TUBES = {
         (119.2, 258.8, 398.0),
     ),
 }
+VOCE = "{type: voce, saturation: 120 MPa, strain: 0.1}"
+# spans of 1.1 to 2 larger sides or diameters
+SHORTEST = {
+    "40x60x2.5, 130 mm": ((BOX.format(40, 60, 2.5), 280, VOCE, 130.0), (386.0, 1018.0, 1830.0)),
+    "40x60x2.5, 180 mm": ((BOX.format(40, 60, 2.5), 280, VOCE, 180.0), (423.0, 1100.0, 1925.0)),
+    "60x40x2.5, 130 mm": ((BOX.format(60, 40, 2.5), 280, VOCE, 130.0), (279.0, 735.0, 1330.0)),
+    "60x40x2.5, 180 mm": ((BOX.format(60, 40, 2.5), 280, VOCE, 180.0), (309.0, 789.0, 1401.0)),
+    "50x50x3, 130 mm": ((BOX.format(50, 50, 3), 300, VOCE, 130.0), (428.0, 1131.0, 2056.0)),
+    "50x50x3, 180 mm": ((BOX.format(50, 50, 3), 300, VOCE, 180.0), (472.0, 1230.0, 2182.0)),
+    "35x55x1.8, 140 mm": (
+        (BOX.format(35, 55, 1.8), 320, SWIFT.format(0.01, 0.15), 140.0),
+        (301.0, 798.0, 1389.0),
+    ),
+    "round 48.3x2.5, 130 mm": (
+        (ROUND.format(48.3, 2.5), 300, SWIFT.format(0.006, 0.16), 130.0),
+        (288.0, 802.0, 1477.0),
+    ),
+    "round 48.3x2.5, 190 mm": (
+        (ROUND.format(48.3, 2.5), 300, SWIFT.format(0.006, 0.16), 190.0),
+        (295.0, 821.0, 1507.0),
+    ),
+}
 CHORDS = np.radians([4.0, 10.0, 18.0])
 
 
-@pytest.mark.parametrize("name", TUBES)
+@pytest.mark.parametrize("name", [*TUBES, *SHORTEST])
 def test_a_tube_between_a_clamp_and_a_guide_takes_the_work_of_shells(name, record_figure):
-    (section, stress, curve, length), works = TUBES[name]
+    (section, stress, curve, length), works = (TUBES | SHORTEST)[name]
     time = 40.0 * length / 300.0
     text = LED.format(
         section=section,
@@ -95,7 +119,7 @@ def test_a_tube_between_a_clamp_and_a_guide_takes_the_work_of_shells(name, recor
     found = np.interp(1e-3 * length * np.sin(CHORDS), down, done)
     for chord, own, shells in zip(CHORDS, found, works, strict=True):
         title = f"{name} mm, work to {math.degrees(chord):.0f} deg of the chord"
-        tolerance = 0.06 if name.startswith("round") else 0.12
+        tolerance = 0.2 if name in SHORTEST else 0.06 if name.startswith("round") else 0.12
         record_figure(title, float(own), shells, tolerance, "J", relative=True)
 
 

@@ -21,6 +21,7 @@ from crumple.hinge import (
     Stop,
 )
 from crumple.hinge.bending.edge_fold import BESIDE_A_CLAMP
+from crumple.hinge.corner.in_plane import InPlaneLaw
 from crumple.hinge.record.sampling import TOO_STEEP
 from crumple.section import AXES, Axis
 from crumple.section.section import in_mm
@@ -165,12 +166,17 @@ def _shares(
 
 
 def _bending(
-    structure: StructureParts, place: HingePlace, share: HingeShares
+    structure: StructureParts, place: HingePlace, share: HingeShares, *, jams: bool = True
 ) -> tuple[HingeLaw, HingeRecord]:
-    """Law and record about one axis of a hinge that stands for lengths of member [m]."""
+    """Law and record about one axis of a hinge that stands for lengths of member [m].
+
+    `jams`: whether walls of a corner come to lie on each other; those that are pressed straight do not.
+    """
     spec = law_spec(structure, place)
     rigidity = structure.flexural_rigidity(place.member, place.axis)
     law = law_of(structure, place)
+    if not jams and isinstance(law, InPlaneLaw):
+        law = replace(law, jamming=0.0)
     record = _record(law, spec, rigidity)
     # hinges of a chain differ only in length, which only the elastic form uses
     by_length = spec.elastic_stiffness == "auto" and law.elastic_stiffness is None
@@ -201,8 +207,13 @@ def spatial_record_of(
     if place.keys.plain:
         return None
 
+    corner = turned_corner(structure, place.name, place.keys.axes)
+    plain = corner_of(structure, place.name) if corner is None else None
+    # in a plane a shortening of a corner counts as rotation
+    slips = plain is not None and place.keys.axial is not None
+
     def record_about(axis: Axis) -> HingeRecord:
-        return _bending(structure, about_axis(place, axis), shares)[1]
+        return _bending(structure, about_axis(place, axis), shares, jams=not slips)[1]
 
     metal = structure.section_of(place.member), structure.material_of(place.member)
     torsion = twist_law(structure, place)
@@ -217,10 +228,8 @@ def spatial_record_of(
     )
     if near_fold(structure, place.member, place.name).fold == "clamped":
         record = replace(record, edge_relief=BESIDE_A_CLAMP * record.edge_relief)
-    corner = turned_corner(structure, place.name, place.keys.axes)
     squash = metal[1].yield_stress * metal[0].area
     if corner is None:
-        plain = corner_of(structure, place.name)
         return record if plain is None else with_corner_slip(record, plain, metal[0], squash)
     # a corner's twist is about another axis, and its law contains what its walls carry besides
     own = replace(record, shear_loss=(0.0, 0.0))
@@ -229,7 +238,8 @@ def spatial_record_of(
     twisted = STIFF * _side(structure, place.member) if elastic else shares.twist
     sprung = with_corner_springs(own, corner, metal, twisted, torsion)
     shifted = with_corner_shift(sprung, corner, metal[0])
-    return with_corner_press(shifted, corner, metal[0], squash)
+    straight = _bending(structure, about_axis(place, corner.axis), shares, jams=False)[1]
+    return with_corner_press(shifted, corner, metal[0], squash, straight)
 
 
 def _side(structure: StructureParts, member: str) -> float:

@@ -234,9 +234,10 @@ def test_an_elastic_member_that_shortens_at_one_hinge_shortens_at_all_of_them_ov
 
 def test_joints_between_an_end_and_the_fold_there_do_not_yield():
     """They would carry the largest moment for ever, and the fold beside them would never soften."""
-    short = {"a": (0.0, 0.0, 0.0), "b": (0.14, 0.0, 0.0), "c": (0.14, 0.0, 1.0)}
-    members = {"ab": elastic("a", "b"), "bc": FRAME["bc"]}
-    law = {"ab": elastic("a", "b", hinges={"law": "kecman"}), "bc": FRAME["bc"]}
+    short = {"a": (0.0, 0.0, 0.0), "b": (0.3, 0.0, 0.0), "c": (0.3, 0.0, 1.0)}
+    fine = {"elastic": 32}
+    members = {"ab": elastic("a", "b") | fine, "bc": FRAME["bc"]}
+    law = {"ab": elastic("a", "b", hinges={"law": "kecman"}) | fine, "bc": FRAME["bc"]}
     for given in (members, law):
         whole = structure(short, given, supports=CLAMP)
         folds = [hinge for hinge in placed_hinges(whole) if hinge.plastic and hinge.member == "ab"]
@@ -245,9 +246,24 @@ def test_joints_between_an_end_and_the_fold_there_do_not_yield():
         ends = [joint for joint in joints if not folds[0].station < joint.station < folds[-1].station]
         assert ends
         assert all(float(joint.record.positive.moment[0]) > 10.0 * strongest for joint in ends)
-        inside = [joint for joint in joints if joint not in ends]
+        # beside a fold, within the length that it takes, they do not either
+        beyond = folds[0].station + FOLD, folds[-1].station - FOLD
+        inside = [joint for joint in joints if beyond[0] < joint.station < beyond[1]]
         assert inside
         assert all(float(joint.record.positive.moment[0]) <= strongest for joint in inside)
+
+
+@pytest.mark.parametrize(("sides", "share"), [(4.0, 1.0), (3.0, 1.0), (2.0, 0.5), (1.2, 0.2)])
+def test_folds_beside_clamps_move_to_them_in_short_spans(sides, share):
+    """A span is half of a member between clamps: from 3 sides down to 1.4 the distance falls to a fifth."""
+    side = 0.050
+    nodes = {"a": (0.0, 0.0, 0.0), "b": (2.0 * sides * side, 0.0, 0.0)}
+    tube = {"sections": {"tube": {"type": "square_tube", "side": side, "thickness": 0.002}}}
+    clamps = {name: {"node": name, "fix": "all"} for name in "ab"}
+    whole = structure(nodes, {"ab": member("a", "b") | {"hinges": "auto"}}, supports=clamps, **tube)
+    first, *_, last = (place.station for place in hinge_places(whole))
+    assert first == pytest.approx(share * fold_distance(whole.section_of("ab"), "y"))
+    assert last == pytest.approx(nodes["b"][0] - first)
 
 
 @pytest.mark.parametrize("ends", ["ab", "ba"])

@@ -28,7 +28,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from crumple.hinge import Coupling, Freedom, HingeComponent, SpatialHingeRecord
+from crumple.hinge import Coupling, Freedom, HingeComponent, HingeRecord, SpatialHingeRecord
 from crumple.hinge.record.spatial_record import HingeSurface
 from crumple.numeric.arrays import Floats
 from crumple.section import Section
@@ -42,7 +42,7 @@ DIRECTIONS = 5
 
 
 def with_corner_press(
-    record: SpatialHingeRecord, corner: Corner, section: Section, squash: float
+    record: SpatialHingeRecord, corner: Corner, section: Section, squash: float, straight: HingeRecord
 ) -> SpatialHingeRecord:
     """Record of a corner's hinge with slip and three rotations.
 
@@ -54,6 +54,8 @@ def with_corner_press(
         Where; rectangular tubes have a fold about the tension flange.
     squash
         Force at which all walls yield [N].
+    straight
+        Record in the corner's plane of walls that do not come to lie on each other, as under a force alone.
 
     References
     ----------
@@ -66,9 +68,7 @@ def with_corner_press(
     if {*parts} != {Freedom.AXIAL, Freedom.X, Freedom.Y, Freedom.Z}:
         return record
     arm = 0.5 * (section.bending_depth(corner.axis) - section.thickness)
-    pressed = pressed_slip(
-        parts[Freedom.AXIAL].record, parts[in_plane].record, arm, squash, fold_share(corner, section)
-    )
+    pressed = pressed_slip(parts[Freedom.AXIAL].record, straight, arm, squash, fold_share(corner, section))
 
     def own(component: HingeComponent) -> HingeComponent:
         if component.freedom is not Freedom.AXIAL:

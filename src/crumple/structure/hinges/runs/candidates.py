@@ -32,6 +32,9 @@ times as long; a hundred times as far, one of them takes most of it and pushes t
 
 MOST_INSIDE = 0.3
 """Largest distance of a candidate from the end of its run, over the length of the run."""
+SHORTEST, LONG, LEAST_INSIDE = 1.0, 3.0, 0.2
+"""Spans over the largest side of the section between which a fold moves away from a clamp, and the share of
+its distance in long ones that it has at least."""
 STRAIGHT = 5e-3
 """Angle between members in line [rad] up to which a node between them is not a place of its own: far above
 rounded coordinates, and far below the kinks by which a polygon stands for a curved member."""
@@ -131,20 +134,20 @@ def _candidates(
     by_members = list(_struck_by_members(structure, run, half))
     loaded = [at for _, at in (*pressed, *by_members) if start < at < end]
     beside = [_beside(structure, node) for node in run.nodes]
-    inside = {fold: _inside(structure, run, axes, fold) for fold in dict.fromkeys(beside)}
-    first, last = start + inside[beside[0]], end - inside[beside[1]]
+    from_ends = [at - start for at in loaded], [end - at for at in loaded]
+    spans = [_span(end - start, from_ends[i], held[1 - i]) for i in (0, 1)]
+    inside = [_inside(structure, run, axes, *one) for one in zip(beside, spans, strict=True)]
+    first, last = start + inside[0], end - inside[1]
     struck = [*_struck(structure, run, half, ends=False), *by_members]
     struck = [(_own_name(run, name), at) for name, at in struck if first < at < last]
     number = 1 if spacing is None else max(1, math.ceil((last - first) / spacing * (1.0 - 1e-9)))
     number = max(number, _least_parts(structure, run, bool(struck), first_held or last_held))
     between = np.linspace(first, last, number + 1)[1:-1].tolist()
     if first_held:
-        span = _span(end - start, [at - start for at in loaded], held[1])
-        near = Surroundings(beside[0], span, inside[beside[0]])
+        near = Surroundings(beside[0], spans[0], inside[0])
         yield replace(_candidate(run, run.nodes[0], first), near=near)
     if last_held:
-        span = _span(end - start, [end - at for at in loaded], held[0])
-        near = Surroundings(beside[1], span, inside[beside[1]])
+        near = Surroundings(beside[1], spans[1], inside[1])
         yield replace(_candidate(run, run.nodes[1], last), near=near)
     inner = [(str(i), at) for i, at in enumerate(between, 1)]
     taken = [first, *between, last]
@@ -206,10 +209,17 @@ def _candidate(run: StraightRun, name: str, along: float) -> Candidate:
     return Candidate(member, f"{member}-{name}", run.stretches[member].station(along))
 
 
-def _inside(structure: StructureParts, run: StraightRun, axes: tuple[Axis, ...], fold: Fold | None) -> float:
-    """Distance of a candidate from the end of its run [m]; there is room between two of them."""
+def _inside(
+    structure: StructureParts, run: StraightRun, axes: tuple[Axis, ...], fold: Fold | None, span: float
+) -> float:
+    """Distance of a candidate from the end of its run [m]; there is room between two of them.
+
+    In short spans the fold of shells moves to the clamp.
+    """
     furthest = max(distance_of_fold(structure, run.first, axis, fold) for axis in axes)
-    return min(furthest, MOST_INSIDE * run.length)
+    side = float(np.ptp(structure.section_of(run.first).outer_outline(), axis=0).max())
+    far = (span / side - SHORTEST) / (LONG - SHORTEST)
+    return min(furthest * min(max(far, LEAST_INSIDE), 1.0), MOST_INSIDE * run.length)
 
 
 def _span(length: float, loaded: list[float], other_end: bool) -> float:
