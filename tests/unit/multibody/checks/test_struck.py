@@ -267,12 +267,12 @@ def test_a_driven_obstacle_that_passes_over_a_held_node_is_named_before_the_run(
 @pytest.mark.parametrize(
     ("at", "keys", "place"),
     [
-        (0.03, {}, "30 mm from node a"),
+        (0.015, {}, "15 mm from node a"),
         (0.98, {}, "20 mm from node b"),
         (0.4, {}, ""),
         # at the node, and where the input wants no dents
         (0.0, {}, ""),
-        (0.03, {"dents": False}, ""),
+        (0.015, {"dents": False}, ""),
     ],
 )
 def test_a_pole_that_strikes_too_near_the_end_of_a_tube_to_dent_it_is_named(at, keys, place):
