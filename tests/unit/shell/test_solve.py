@@ -261,6 +261,16 @@ def test_reason_names_the_place_of_an_element():
     assert with_place("nothing", case) == "nothing"
 
 
+def test_energy_that_contact_gave_is_looked_for(monkeypatch):
+    seen = []
+    told = lambda contact, internal: seen.append((len(contact), internal)) or ["told"]  # noqa: E731
+    monkeypatch.setattr("crumple.shell.checks.trust.given_by_contact", told)
+    result = solve_shell(thrown(), run(2e-4))
+    assert "told" in result.warnings
+    assert seen[0][0] == len(result.time)
+    assert seen[0][1] > 0.0
+
+
 def test_added_mass_is_reported():
     settings = ShellSettings(element_size=24e-3, mass_scaling=4e-6)
     scaled = solve_shell(thrown(), run(2e-4, settings=settings))

@@ -266,6 +266,26 @@ def test_folds_beside_clamps_move_to_them_in_short_spans(sides, share):
     assert last == pytest.approx(nodes["b"][0] - first)
 
 
+@pytest.mark.parametrize(
+    ("fix", "pole", "shares"),
+    [("all", None, (0.9, 0.9)), ("pin", None, (1.0,)), ("all", 0.08, (0.2, 0.6)), ("all", 0.20, (0.5, 0.2))],
+)
+def test_spans_reach_to_where_a_member_carries_no_moment(fix, pole, shares):
+    """Half of it between clamps, all of it to a pin, and half the way to what strikes it first."""
+    long = 0.28 if pole is None else 0.28 + 0.02
+    nodes = {"a": (0.0, 0.0, 0.0), "b": (long, 0.0, 0.0)}
+    tube = {"sections": {"tube": {"type": "square_tube", "side": 0.050, "thickness": 0.002}}}
+    supports = {"a": {"node": "a", "fix": "all"}, "b": {"node": "b", "fix": fix}}
+    down = {"type": "cylinder", "axis": (0, 1, 0), "radius": 0.02, "mass": 5.0, "velocity": (0, 0, -5.0)}
+    obstacles = {} if pole is None else {"pole": down | {"point": (pole, 0.0, 0.05)}}
+    beam = {"ab": member("a", "b") | {"hinges": "auto"}}
+    whole = structure(nodes, beam, supports=supports, obstacles=obstacles, **tube)
+    inside = fold_distance(whole.section_of("ab"), "y")
+    ends = {place.name: place.station for place in hinge_places(whole) if place.name in {"ab-a", "ab-b"}}
+    found = [ends["ab-a"], long - ends["ab-b"]] if "ab-b" in ends else [ends["ab-a"]]
+    assert found == pytest.approx([share * inside for share in shares])
+
+
 @pytest.mark.parametrize("ends", ["ab", "ba"])
 def test_joints_between_a_fold_and_a_free_end_yield_however_near_the_fold(ends):
     """There the moment is smaller than at the fold; what lies within a fold of it had been left out."""
