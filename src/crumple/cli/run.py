@@ -15,8 +15,6 @@ from crumple.cli.console.fidelity import Fidelity
 from crumple.cli.console.laws import Freeze, Laws, law_lines, range_lines, with_range, with_store
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from crumple.analysis import LoadedInput
     from crumple.result import Result
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from crumple.result import CrumpledEnd, DentedWall, HingeSummary, Result
 
 MOST_HINGES = 20
-"""Number of hinges in the table, and of outputs; the files contain all."""
+"""Number of hinges in the table; the files contain all."""
 MOST_MEMBERS = 3
 """Number of members that are named."""
 MOST_OF_NAMES = 22
@@ -36,7 +36,7 @@ def output_tables(result: Result, clearances: Collection[str]) -> Iterator[Table
     """
     if not len(result.time):
         return
-    extents = dict(list(_extents(result, clearances).items())[:MOST_HINGES])
+    extents = _extents(result, clearances)
     if extents:
         rows = [(values[at], result.time[at], values[-1]) for values, at in extents.values()]
         columns = (

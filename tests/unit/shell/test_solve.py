@@ -263,7 +263,11 @@ def test_reason_names_the_place_of_an_element():
 
 def test_energy_that_contact_gave_is_looked_for(monkeypatch):
     seen = []
-    told = lambda contact, internal: seen.append((len(contact), internal)) or ["told"]  # noqa: E731
+
+    def told(contact, internal):
+        seen.append((len(contact), internal))
+        return ["told"]
+
     monkeypatch.setattr("crumple.shell.checks.trust.given_by_contact", told)
     result = solve_shell(thrown(), run(2e-4))
     assert "told" in result.warnings

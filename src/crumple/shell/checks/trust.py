@@ -171,7 +171,7 @@ def given_by_contact(contact: Floats, internal: float) -> list[str]:
         return []
     return [
         f"Contact forces gave the walls {given:.4g} J ({given / internal:.1%} of the internal energy) that "
-        "nothing put in: what was dissipated is too large by that much. Compare with a finer mesh."
+        "nothing put in: what was dissipated may be too large by as much. Compare with a finer mesh."
     ]
 
 

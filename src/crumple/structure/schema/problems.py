@@ -65,7 +65,7 @@ def placed_problems(
         if keys and reached and (types := _types_with(model, details["loc"])):
             problem = replace(problem, todo=f"remove it, or choose type {' or '.join(types)}, which has it")
         if details["type"] == "tuple_type" and (count := _entries(model, details["loc"])):
-            problem = _listed(problem, value, count)
+            problem = _with_example(problem, value, count)
         if details["type"] == "missing" and place and isinstance(place[-1], int):
             # every missing entry is reported separately; the last one gives the required number
             short[place[:-1]] = (place[:-1], _too_short(value, place))
@@ -225,14 +225,11 @@ def _is_cut_by_commas(values: Iterable[object]) -> bool:
 
 def _entries(model: type[BaseModel] | None, place: Place) -> int:
     """Number of entries of the list of fixed length that is wanted at a place; 0: any."""
-    reached: list[Any] = [model]
-    for part in place:
-        reached = [deeper for kind in reached for deeper in _below(kind, part)]
-    lists = [get_args(kind) for kind in reached if get_origin(kind) is tuple]
+    lists = [get_args(kind) for kind in _reached(model, place) if get_origin(kind) is tuple]
     return next((len(entries) for entries in lists if Ellipsis not in entries), 0)
 
 
-def _listed(problem: Problem, value: Any, count: int) -> Problem:
+def _with_example(problem: Problem, value: Any, count: int) -> Problem:
     """The refusal of a value where a list of a number of entries is wanted, with an example of one."""
     allowed = f"a list of {count} entries in brackets"
     number, _, unit = value.partition(" ") if isinstance(value, str) else ("", "", "")
@@ -316,11 +313,20 @@ class _Blank(dict[str, Any]):
 
 def _keys(model: type[BaseModel] | None, place: Place) -> list[str]:
     """Keys that the models reached by pydantic's path would accept."""
+    names = [
+        field.alias or name
+        for kind in _models(_reached(model, place))
+        for name, field in kind.model_fields.items()
+    ]
+    return list(dict.fromkeys(names))
+
+
+def _reached(model: type[BaseModel] | None, place: Place) -> list[Any]:
+    """Annotations that a path leads to."""
     reached: list[Any] = [model]
     for part in place:
         reached = [deeper for kind in reached for deeper in _below(kind, part)]
-    names = [field.alias or name for kind in _models(reached) for name, field in kind.model_fields.items()]
-    return list(dict.fromkeys(names))
+    return reached
 
 
 def _below(kind: Any, part: str | int) -> list[Any]:
