@@ -209,13 +209,13 @@ def spatial_record_of(
 
     corner = turned_corner(structure, place.name, place.keys.axes)
     plain = corner_of(structure, place.name) if corner is None else None
-    # in a plane a shortening of a corner counts as rotation
-    slips = plain is not None and place.keys.axial is not None
+    metal = structure.section_of(place.member), structure.material_of(place.member)
+    # in a plane a shortening of a corner of tubes counts as rotation
+    slips = plain is not None and place.keys.axial is not None and metal[0].kind == "rectangular_tube"
 
     def record_about(axis: Axis) -> HingeRecord:
         return _bending(structure, about_axis(place, axis), shares, jams=not slips)[1]
 
-    metal = structure.section_of(place.member), structure.material_of(place.member)
     torsion = twist_law(structure, place)
     record = spatial_hinge_record(
         place.keys,

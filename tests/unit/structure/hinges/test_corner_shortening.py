@@ -245,3 +245,14 @@ def test_in_a_plane_its_shortening_counts_as_the_rotation_that_does_its_work():
     others = [one.spatial for one in placed_hinges(structure) if one.plastic and one.name != "corner-bend"]
     assert others
     assert all(one.surface.shortened_turn == 0.0 for one in others)
+
+
+def test_a_corner_of_hats_does_not_slip_and_so_its_walls_jam():
+    hat = "{type: closed_hat, width: 50 mm, depth: 50 mm, thickness: GAUGE, flange: 18 mm}"
+    placed = corner(text=RAIL.replace("{type: square_tube, side: 50 mm, thickness: GAUGE}", hat))
+    bending = {part.freedom: part.record for part in placed.spatial.components}[Freedom.Y]
+    assert placed.spatial.surface.shortened_turn == 0.0
+    assert placed.law.jamming > 0.3
+    for record, sense in ((bending.positive, 1), (bending.negative, -1)):
+        found = float(np.interp(0.9, record.rotation, record.moment))
+        assert found == pytest.approx(float(placed.law.moment_capacity(0.9, sense)), rel=1e-3)
